@@ -117,13 +117,6 @@ std::string with_plain_micro(std::string_view text) {
     return plain;
 }
 
-std::string in_small_letters(std::string text) {
-    std::ranges::transform(text, text.begin(), [](char a) {
-        return a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a;
-    });
-    return text;
-}
-
 std::string_view without_blanks_or_marks(std::string_view text) {
     const auto first = text.find_first_not_of(" \t#");
     if (first == std::string_view::npos) return {};
@@ -152,6 +145,13 @@ std::vector<Bracketed> all_bracketed(std::string_view text) {
 }
 
 }  // namespace
+
+std::string in_small_letters(std::string text) {
+    std::ranges::transform(text, text.begin(), [](char a) {
+        return a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a;
+    });
+    return text;
+}
 
 const Unit* find_unit(std::string_view text) {
     const std::string plain = with_plain_micro(text);

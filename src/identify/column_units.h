@@ -13,6 +13,9 @@ struct Unit {
     double size;  ///< its size in the first unit of its quantity
 };
 
+/// With a to z in place of A to Z.
+std::string in_small_letters(std::string text);
+
 /// By a unit's name, or another way to write it: "µm", "micron", "sec", "Volts", "°C". nullptr if it is
 /// unknown.
 const Unit* find_unit(std::string_view text);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -94,10 +93,7 @@ class UnitSearch {
 
 bool is_word_for_a_factor(std::string_view field) {
     constexpr std::array<std::string_view, 5> words{"scale", "scaling", "factor", "gain", "multiplier"};
-    const auto small = [](char letter) { return std::tolower(static_cast<unsigned char>(letter)); };
-    return std::ranges::any_of(words, [&](std::string_view word) {
-        return std::ranges::equal(word, without_blanks(field), {}, {}, small);
-    });
+    return std::ranges::find(words, in_small_letters(std::string(without_blanks(field)))) != words.end();
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ struct ColumnSignal {
     bool is_held;
     bool is_command;          ///< command or setpoint: one without a number is not in force
     std::size_t missing = 0;  ///< samples of a reading without a number
+    TimeNs interval_ns = 0;   ///< median_interval() of its times
 };
 
 std::vector<ColumnSignal> column_signals(SignalSource& source, const ImportMap& map, Assembled& made) {
@@ -48,6 +49,7 @@ std::vector<ColumnSignal> column_signals(SignalSource& source, const ImportMap& 
                 fmt::format("{}: {}: holds no number", signal.log->file.string(), signal.signal->name));
         all.push_back({k, name, std::move(signal), choice->second.is_held.value_or(is_command), is_command,
                        static_cast<std::size_t>(missing)});
+        all.back().interval_ns = median_interval(all.back().signal.time_ns);
         made.recording.columns.*stage_columns[k].present = true;
     }
     return all;
@@ -69,15 +71,15 @@ ColumnSignal without_missing(ColumnSignal column) {
     }
     signal.values.resize(kept);
     signal.time_ns.resize(kept);
+    column.interval_ns = median_interval(signal.time_ns);
     return column;
 }
 
 std::string source_text(const ColumnSignal& column) {
-    const std::vector<TimeNs>& times = column.signal.time_ns;
-    const TimeNs interval = median_interval(times);
-    const std::string rate = interval == 0 ? std::string("one sample")
-                                           : fmt::format("{} samples at {:.6g} Hz", times.size(),
-                                                         1e9 / static_cast<double>(interval));
+    const std::string rate = column.interval_ns == 0
+                                 ? std::string("one sample")
+                                 : fmt::format("{} samples at {:.6g} Hz", column.signal.time_ns.size(),
+                                               1e9 / static_cast<double>(column.interval_ns));
     return fmt::format("{}: {} of {}, {}{}", column.name, column.signal.signal->name,
                        column.signal.log->file.string(), rate,
                        column.missing > 0 ? fmt::format(" ({} more have no number)", column.missing) : "");
@@ -98,7 +100,7 @@ class Columns {
     std::optional<TimeNs> tick_ns() const {
         std::optional<TimeNs> steady, any;
         for (const ColumnSignal* column : present_) {
-            const TimeNs interval = median_interval(column->signal.time_ns);
+            const TimeNs interval = column->interval_ns;
             if (interval == 0) continue;
             any = std::min(any.value_or(interval), interval);
             if (is_steady(column->signal.time_ns, interval))
@@ -110,9 +112,8 @@ class Columns {
     bool are_rows_of(double tick_s) const {
         const TimeNs tick = nanoseconds(tick_s);
         return have_same_times(logged_) && std::ranges::all_of(present_, [&](const ColumnSignal* column) {
-                   const TimeNs interval = median_interval(column->signal.time_ns);
-                   return interval == 0 ||
-                          (is_steady(column->signal.time_ns, tick) && 2 * interval < 3 * tick);
+                   return column->interval_ns == 0 ||
+                          (2 * column->interval_ns < 3 * tick && is_steady(column->signal.time_ns, tick));
                });
     }
 
@@ -156,7 +157,7 @@ void Columns::take_rows(Assembled& made) const {
 void Columns::say_resampled(const ColumnSignal& column, double tick_s, const Span& span,
                             Assembled& made) const {
     const std::vector<TimeNs>& times = column.signal.time_ns;
-    const double ratio = tick_s / std::max(1e-9, seconds(median_interval(times)));
+    const double ratio = tick_s / std::max(1e-9, seconds(column.interval_ns));
     const double lost_s =
         std::max(0.0, seconds(span.first - times.front())) + std::max(0.0, seconds(times.back() - span.last));
     made.notes.push_back(fmt::format(
@@ -176,26 +177,28 @@ TimeNs end_of(const ColumnSignal& column) {
     constexpr std::size_t fewest_steady = 20;
     const std::vector<TimeNs>& times = column.signal.time_ns;
     if (!column.is_held) return times.back();
-    const TimeNs interval = median_interval(times);
-    if (times.size() < fewest_steady || !is_steady(times, interval))
+    if (times.size() < fewest_steady || !is_steady(times, column.interval_ns))
         return std::numeric_limits<TimeNs>::max();
     constexpr TimeNs parts = 1000;
-    return times.back() + interval - interval / parts;  // not at the time of a next sample
+    return times.back() + column.interval_ns -
+           column.interval_ns / parts;  // not at the time of a next sample
 }
 
 Columns::Span Columns::common_span() const {
     const auto by_first = [](const ColumnSignal* column) { return column->signal.time_ns.front(); };
     const auto by_last = [](const ColumnSignal* column) { return column->signal.time_ns.back(); };
-    const auto by_end = [](const ColumnSignal* column) { return end_of(*column); };
+    std::vector<TimeNs> ends;
+    for (const ColumnSignal* column : present_) ends.push_back(end_of(*column));
+    const auto first_end = std::ranges::min_element(ends);
     const ColumnSignal& begins = **std::ranges::max_element(present_, {}, by_first);
-    const ColumnSignal& ends = **std::ranges::min_element(present_, {}, by_end);
+    const ColumnSignal& stops = *present_[static_cast<std::size_t>(first_end - ends.begin())];
     const TimeNs end_of_log = by_last(*std::ranges::max_element(present_, {}, by_last));
-    const Span span{by_first(&begins), std::min(end_of(ends), end_of_log)};
+    const Span span{by_first(&begins), std::min(*first_end, end_of_log)};
     if (span.last <= span.first)
         throw InputError(fmt::format(
             "{}: the signals share no time: {} begins {:.6g} s after {} has ended; a clock needs "
             "offset_s or fit",
-            begins.signal.log->file.string(), begins.name, seconds(span.first - span.last), ends.name));
+            begins.signal.log->file.string(), begins.name, seconds(span.first - span.last), stops.name));
     return span;
 }
 

@@ -57,7 +57,7 @@ struct Alignment {
     double correlation = 0.0;
     double independent = 0.0;  ///< samples, after what neighbours share
     /// What the slopes tell of the rate, in standard deviations of what noise would tell.
-    double rate_is_shown = 0.0;
+    double rate_in_stds = 0.0;
     double spread_s = 0.0;  ///< standard deviation of the times of motion
 };
 
@@ -78,22 +78,22 @@ class RateShown {
     }
     /// R over its standard deviation where s is noise of a standard deviation.
     double in_stds(double slopes_std) const {
-        if (!(sums_[0] > 0.0)) return 0.0;
-        const double t0 = sums_[1] / sums_[0];
+        if (!moves()) return 0.0;
+        const double t0 = mean_time_s();
         const auto& p = powers_;
         const double fourth = p[4] - 4.0 * t0 * p[3] + 6.0 * t0 * t0 * p[2] - 4.0 * std::pow(t0, 3) * p[1] +
                               std::pow(t0, 4) * p[0];
-        return (sums_[2] - t0 * sums_[1]) / (slopes_std * std::sqrt(fourth));
+        return about_mean_time() / (slopes_std * std::sqrt(fourth));
     }
 
     /// Standard deviation of the times at which the signals move, s.
-    double spread_s() const {
-        if (!(sums_[0] > 0.0)) return 0.0;
-        const double t0 = sums_[1] / sums_[0];
-        return std::sqrt(std::max(0.0, sums_[2] / sums_[0] - t0 * t0));
-    }
+    double spread_s() const { return moves() ? std::sqrt(std::max(0.0, about_mean_time() / sums_[0])) : 0.0; }
 
   private:
+    bool moves() const { return sums_[0] > 0.0; }
+    double mean_time_s() const { return sums_[1] / sums_[0]; }
+    double about_mean_time() const { return sums_[2] - mean_time_s() * sums_[1]; }  ///< R
+
     std::array<double, 3> sums_{};    ///< of s t^k
     std::array<double, 5> powers_{};  ///< of t^k
 };
@@ -112,7 +112,9 @@ struct Equations {
     RateShown rate_shown;
 };
 
-Equations equations_at(const Alignment& now, const MotionTrack& track, const MotionTrack& reference,
+/// @param track_slopes  of the track at its samples, by the same differences
+Equations equations_at(const Alignment& now, const MotionTrack& track,
+                       const std::vector<double>& track_slopes, const MotionTrack& reference,
                        double half_step_s) {
     Equations all;
     const double low = reference.time_s.front() + half_step_s, high = reference.time_s.back() - half_step_s;
@@ -123,7 +125,7 @@ Equations equations_at(const Alignment& now, const MotionTrack& track, const Mot
         if (at < low || at > high) continue;
         const double x = value_at(reference, at);
         const double slope = slope_at(reference, at, half_step_s);
-        const double own_slope = slope_at(track, track.time_s[k], half_step_s);
+        const double own_slope = track_slopes[k];
         const Eigen::Vector4d gradient(slope, slope * from_middle, -track.value[k], -1.0);
         const Eigen::Vector4d instrument(own_slope, own_slope * from_middle, -track.value[k], -1.0);
         const double residual = x - now.unknowns[2] * track.value[k] - now.unknowns[3];
@@ -158,7 +160,7 @@ void judge(Alignment& alignment, const Equations& at_end, double half_step_s) {
     // Of white noise in x and a y, whose variances have the product var(r)^2 / 4 at most.
     const double most_product = 0.5 * square / std::max(1.0, count - 4.0) / std::abs(alignment.unknowns[2]);
     alignment.spread_s = at_end.rate_shown.spread_s();
-    alignment.rate_is_shown = at_end.rate_shown.in_stds(most_product / (2.0 * half_step_s * half_step_s));
+    alignment.rate_in_stds = at_end.rate_shown.in_stds(most_product / (2.0 * half_step_s * half_step_s));
 }
 
 enum class Rate { fitted, held };
@@ -171,9 +173,15 @@ Alignment align(const MotionTrack& track, const MotionTrack& reference, const Ei
     Alignment now;
     now.middle_s = 0.5 * (track.time_s.front() + track.time_s.back());
     now.unknowns.head<2>() = begin;
+    std::vector<double> track_slopes;
+    track_slopes.reserve(track.time_s.size());
+    for (const double time_s : track.time_s) track_slopes.push_back(slope_at(track, time_s, half_step_s));
+    const auto equations_here = [&] {
+        return equations_at(now, track, track_slopes, reference, half_step_s);
+    };
     constexpr int most_rounds = 50;
     for (int round = 0; round < most_rounds; ++round) {
-        const Equations equations = equations_at(now, track, reference, half_step_s);
+        const Equations equations = equations_here();
         if (equations.residuals.size() < fewest_samples) break;
         // Scale and offset follow from the first round on; the shift moves by a step at most.
         Eigen::Vector4d move = equations.cross.fullPivLu().solve(equations.right);
@@ -184,7 +192,7 @@ Alignment align(const MotionTrack& track, const MotionTrack& reference, const Ei
         now.unknowns[1] = std::clamp(now.unknowns[1], -fastest, fastest);
         if (round > 1 && std::abs(move[0]) < 1e-6 * half_step_s) break;
     }
-    judge(now, equations_at(now, track, reference, half_step_s), half_step_s);
+    judge(now, equations_here(), half_step_s);
     return now;
 }
 
@@ -196,22 +204,26 @@ double shift_std_s(const Alignment& alignment, double time_s) {
                                        from_middle * from_middle * covariance(1, 1)));
 }
 
-constexpr double rate_is_shown = 4.0;
+bool shows_rate(const Alignment& alignment) {
+    constexpr double is_shown = 4.0;
+    return alignment.rate_in_stds >= is_shown;
+}
 
 /// The alignment by those differences that make the shift best known, from one step to half of the lag over
 /// which the motion changes. Where none shows the rate, that by one step with the rate held at 0.
 Alignment align_by_best_slopes(const MotionTrack& track, const MotionTrack& reference, double shift_s,
                                double step_s, double change_s) {
     const auto std_s = [](const Alignment& alignment) { return shift_std_s(alignment, alignment.middle_s); };
-    std::optional<Alignment> best;
+    std::optional<Alignment> narrowest, best;
     for (double half_step_s = step_s; half_step_s <= std::max(step_s, 0.5 * change_s); half_step_s *= 4.0) {
         const Alignment held = align(track, reference, {shift_s, 0.0}, half_step_s, Rate::held);
-        if (held.rate_is_shown < rate_is_shown) continue;
+        if (!narrowest) narrowest = held;
+        if (!shows_rate(held)) continue;
         const Alignment fitted = align(track, reference, held.unknowns.head<2>(), half_step_s);
-        if (fitted.rate_is_shown < rate_is_shown) continue;
+        if (!shows_rate(fitted)) continue;
         if (!best || std_s(fitted) < std_s(*best)) best = fitted;
     }
-    return best ? *best : align(track, reference, {shift_s, 0.0}, step_s, Rate::held);
+    return best ? *best : *narrowest;
 }
 
 /// The share of the reference's energy that a fit leaves; never less than what lines between samples do.
@@ -257,7 +269,7 @@ std::string why_undetermined(const Alignment& alignment, const MotionTrack& trac
         std::max(shift_std_s(alignment, track.time_s.front()), shift_std_s(alignment, track.time_s.back()));
     constexpr double furthest = 10.0;  // of the motion's spread, that the rate is extrapolated
     const double half_length_s = 0.5 * (track.time_s.back() - track.time_s.front());
-    if (alignment.rate_is_shown < rate_is_shown || half_length_s > furthest * alignment.spread_s)
+    if (!shows_rate(alignment) || half_length_s > furthest * alignment.spread_s)
         return "the motion does not determine the clock's rate: it is too short, or drowns in noise; give "
                "offset_s";
     if (worst_s < change_s) return {};

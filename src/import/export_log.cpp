@@ -134,6 +134,13 @@ fs::path beside(const fs::path& file, std::string_view ending) {
     return file.parent_path() / (file.stem().string() + std::string(ending));
 }
 
+/// A file's name as text of YAML, whatever is in it.
+std::string in_quotes(const std::string& name) {
+    YAML::Emitter yaml;
+    yaml << YAML::DoubleQuoted << name;
+    return yaml.c_str();
+}
+
 std::vector<std::string> write_csv(const fs::path& file, const Recording& recording, const Log& log) {
     const fs::path detections = beside(file, "-detections.csv"), map = beside(file, ".map.yaml"),
                    plate = beside(file, ".plate.yaml");
@@ -148,9 +155,7 @@ std::vector<std::string> write_csv(const fs::path& file, const Recording& record
     std::string text = log.texts.at(map_text);
     if (!recording.plate.empty()) {
         write(plate, log.texts.at(plate_text));
-        YAML::Emitter name;
-        name << YAML::DoubleQuoted << plate.filename().string();
-        text += fmt::format("plate: {}\n", name.c_str());
+        text += fmt::format("plate: {}\n", in_quotes(plate.filename().string()));
     }
     write(map, text);
     return written;
@@ -174,9 +179,7 @@ std::string csv_map(std::string map, const fs::path& file) {
     replace_detection("tag_id");
     replace_detection(refined_title);
     const auto times_of = [](const fs::path& table) {
-        YAML::Emitter name;
-        name << YAML::DoubleQuoted << table.stem().string() + ":timestamp";
-        return fmt::format("signal: {},", name.c_str());
+        return fmt::format("signal: {},", in_quotes(table.stem().string() + ":timestamp"));
     };
     replace_all("signal: stage.time_ns,", times_of(file));
     replace_all("signal: detections.time_ns,", times_of(beside(file, "-detections.csv")));

@@ -25,8 +25,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const TableOptions tables{.are_offered = false};
-
 constexpr std::int64_t ms = 1'000'000, wall_ns = 1'700'000'000'000'000'000;
 
 testing::BagTopic states_of(const std::vector<std::int64_t>& stamps) {
@@ -59,7 +57,7 @@ TEST(BagLog, JointsOfTwoPublishers_HaveTheSamplesAndTimesOfTheirOwnMessages) {
         topic.messages.emplace_back(k * 10 + 9, testing::joint_state(k * 10 + 5, {"b", "c"}, {5.0, 6.0}));
     }
     testing::make_bag(folder / "b.db3", {topic});
-    const Log log = read_log(folder / "b.db3", tables);
+    const Log log = read_log(folder / "b.db3", testing::no_table_options);
     const LoggedSignal *a = log.find("/js/position[a]"), *b = log.find("/js/position[b]");
     ASSERT_NE(a, nullptr);
     ASSERT_NE(b, nullptr);
@@ -75,7 +73,7 @@ TEST(BagLog, JointsOfTwoPublishers_HaveTheSamplesAndTimesOfTheirOwnMessages) {
 TEST(BagLog, StampsThatBeginAtZero_AreTimesOfASimulation) {
     const TemporaryFolder folder;
     testing::make_bag(folder / "b.db3", {states_of({0, ms, 2 * ms, 3 * ms})});
-    const Log log = read_log(folder / "b.db3", tables);
+    const Log log = read_log(folder / "b.db3", testing::no_table_options);
     ASSERT_NE(log.find("/js/stamp"), nullptr);
     EXPECT_THAT(log.find("/js/stamp")->whole, ElementsAre(0, ms, 2 * ms, 3 * ms));
     EXPECT_EQ(log.find("/js/position[a]")->times, "/js/stamp");
@@ -87,7 +85,7 @@ TEST(BagLog, StampsThatBeginAtZero_AreTimesOfASimulation) {
 TEST(BagLog, MessagesBeforeTheSimulationsClock_AreLeftOutButTheLast) {
     const TemporaryFolder folder;
     testing::make_bag(folder / "b.db3", {states_of({0, 0, 0, ms, 2 * ms})});
-    const Log log = read_log(folder / "b.db3", tables);
+    const Log log = read_log(folder / "b.db3", testing::no_table_options);
     EXPECT_THAT(log.find("/js/position[a]")->values, ElementsAre(2, 3, 4));
     EXPECT_THAT(log.notes, ElementsAre("/js: 2 of 5 messages have no stamp: they are left out"));
 }
@@ -95,11 +93,11 @@ TEST(BagLog, MessagesBeforeTheSimulationsClock_AreLeftOutButTheLast) {
 TEST(BagLog, MessageWithoutStampAmongOthers_IsLeftOutAndCounted) {
     const TemporaryFolder folder;
     testing::make_bag(folder / "b.db3", {states_of({0, wall_ns, wall_ns + ms, 0, wall_ns + 3 * ms})});
-    const Log log = read_log(folder / "b.db3", tables);
+    const Log log = read_log(folder / "b.db3", testing::no_table_options);
     EXPECT_THAT(log.find("/js/stamp")->whole, ElementsAre(wall_ns, wall_ns + ms, wall_ns + 3 * ms));
     EXPECT_THAT(log.notes, ElementsAre("/js: 2 of 5 messages have no stamp: they are left out"));
     testing::make_bag(folder / "none.db3", {states_of({0, 0})});
-    EXPECT_THAT(read_log(folder / "none.db3", tables).notes,
+    EXPECT_THAT(read_log(folder / "none.db3", testing::no_table_options).notes,
                 ElementsAre(HasSubstr("/js: its messages have no stamps: times are those at which")));
 }
 
@@ -112,12 +110,12 @@ TEST(SplitBag, Folder_IsOneLogInTheOrderOfItsMetadata) {
     folder.write("bag/metadata.yaml",
                  "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n"
                  "  relative_file_paths: [bag/first.db3, again.db3]\n");
-    const Log log = read_log(folder / "bag/", tables);
+    const Log log = read_log(folder / "bag/", testing::no_table_options);
     EXPECT_THAT(log.find("/u")->values, ElementsAre(0, 1, 2, 3));
     EXPECT_THAT(log.notes, Contains("2 files of one bag are one log: first.db3, again.db3"));
     EXPECT_THAT(log.notes, Contains(HasSubstr("stray.db3: passed over")));
     std::filesystem::remove(folder / "bag/again.db3");
-    EXPECT_THAT(message_of([&] { read_log(folder / "bag", tables); }),
+    EXPECT_THAT(message_of([&] { read_log(folder / "bag", testing::no_table_options); }),
                 HasSubstr("again.db3: this file of the bag is not there"));
 }
 
@@ -127,14 +125,16 @@ TEST(SplitBag, WithoutMetadata_IsInTheOrderOfItsNumbers) {
     for (int k = 9; k <= 10; ++k) make_numbers(folder / fmt::format("bag/run_{}.db3", k), 2 * k, 2);
     EXPECT_THAT(bag_of_folder(folder / "bag").files,
                 ElementsAre(folder / "bag/run_9.db3", folder / "bag/run_10.db3"));
-    EXPECT_THAT(read_log(folder / "bag", tables).find("/u")->values, ElementsAre(18, 19, 20, 21));
-    const std::vector<Log> logs = read_logs({folder / "bag/run_10.db3", folder / "bag/run_9.db3"}, tables);
+    EXPECT_THAT(read_log(folder / "bag", testing::no_table_options).find("/u")->values,
+                ElementsAre(18, 19, 20, 21));
+    const std::vector<Log> logs =
+        read_logs({folder / "bag/run_10.db3", folder / "bag/run_9.db3"}, testing::no_table_options);
     ASSERT_EQ(logs.size(), 1u);
     EXPECT_THAT(logs[0].find("/u")->values, ElementsAre(18, 19, 20, 21));
-    EXPECT_THAT(read_log(folder / "bag/run_9.db3", tables).notes,
+    EXPECT_THAT(read_log(folder / "bag/run_9.db3", testing::no_table_options).notes,
                 Contains(HasSubstr("is one of 2 files of a bag")));
     make_numbers(folder / "bag/other_0.db3", 0, 1);
-    EXPECT_THAT(message_of([&] { read_log(folder / "bag", tables); }),
+    EXPECT_THAT(message_of([&] { read_log(folder / "bag", testing::no_table_options); }),
                 HasSubstr("holds files of several bags: other_0.db3, run_10.db3, run_9.db3"));
 }
 
@@ -143,11 +143,11 @@ TEST(SplitBag, DamageIsToldByTheFilesName) {
     make_numbers(folder / "run_0.db3", 0, 2);
     folder.write("run_1.db3", text_of(folder / "run_0.db3").substr(0, 4000));
     EXPECT_THAT(message_of([&] {
-                    read_logs({folder / "run_0.db3", folder / "run_1.db3"}, tables);
+                    read_logs({folder / "run_0.db3", folder / "run_1.db3"}, testing::no_table_options);
                 }),
                 HasSubstr("run_1.db3: breaks off"));
     EXPECT_THAT(message_of([&] {
-                    read_logs({folder / "run_0.db3", folder / "run_2.db3"}, tables);
+                    read_logs({folder / "run_0.db3", folder / "run_2.db3"}, testing::no_table_options);
                 }),
                 HasSubstr("run_2.db3: is not there"));
 }
@@ -157,16 +157,18 @@ TEST(CompressedBag, MessagesAndFilesOfZstd_AreRead) {
     testing::BagTopic topic{"/u", "std_msgs/msg/Float64", {}};
     for (int k = 0; k < 3; ++k) topic.messages.emplace_back(wall_ns + k * ms, zstd_of(testing::float64(k)));
     testing::make_bag(folder / "messages.db3", {topic});
-    EXPECT_THAT(read_log(folder / "messages.db3", tables).find("/u")->values, ElementsAre(0, 1, 2));
+    EXPECT_THAT(read_log(folder / "messages.db3", testing::no_table_options).find("/u")->values,
+                ElementsAre(0, 1, 2));
     std::filesystem::create_directory(folder / "bag");
     const std::string file = zstd_of(text_of(folder / "messages.db3"));
     folder.write("bag/m_0.db3.zstd", file);
     folder.write("bag/metadata.yaml",
                  "rosbag2_bagfile_information: { relative_file_paths: [m_0.db3.zstd] }\n");
-    EXPECT_THAT(read_log(folder / "bag", tables).find("/u")->values, ElementsAre(0, 1, 2));
-    EXPECT_THAT(read_log(folder / "bag/m_0.db3.zstd", tables).find("/u")->values, ElementsAre(0, 1, 2));
+    EXPECT_THAT(read_log(folder / "bag", testing::no_table_options).find("/u")->values, ElementsAre(0, 1, 2));
+    EXPECT_THAT(read_log(folder / "bag/m_0.db3.zstd", testing::no_table_options).find("/u")->values,
+                ElementsAre(0, 1, 2));
     folder.write("cut.db3.zstd", file.substr(0, file.size() / 2));
-    EXPECT_THAT(message_of([&] { read_log(folder / "cut.db3.zstd", tables); }),
+    EXPECT_THAT(message_of([&] { read_log(folder / "cut.db3.zstd", testing::no_table_options); }),
                 HasSubstr("cut.db3.zstd: its zstd data break off"));
 }
 
@@ -175,7 +177,7 @@ TEST(CompressedBag, DamagedMessage_IsToldByItsNumber) {
     const std::string whole = zstd_of(testing::float64(1.0));
     testing::make_bag(folder / "b.db3",
                       {{"/u", "std_msgs/msg/Float64", {{1, whole}, {2, whole.substr(0, 12)}}}});
-    EXPECT_THAT(message_of([&] { read_log(folder / "b.db3", tables); }),
+    EXPECT_THAT(message_of([&] { read_log(folder / "b.db3", testing::no_table_options); }),
                 HasSubstr("b.db3: /u: message 2: its zstd data break off"));
 }
 
@@ -183,10 +185,11 @@ TEST(McapBag, FolderAndFile_AreRefusedWithTheCommandThatConvertsThem) {
     const TemporaryFolder folder;
     folder.write("bag/x_0.mcap", "\x89MCAP0\r\n");
     for (const char* given : {"bag", "bag/x_0.mcap"})
-        EXPECT_THAT(message_of([&] { read_log(folder / given, tables); }),
+        EXPECT_THAT(message_of([&] { read_log(folder / given, testing::no_table_options); }),
                     HasSubstr("ros2 bag convert -i BAG -o to.yaml"));
     folder.write("bag/metadata.yaml", "rosbag2_bagfile_information: { relative_file_paths: [x_0.mcap] }\n");
-    EXPECT_THAT(message_of([&] { read_log(folder / "bag", tables); }), HasSubstr("bag in the format MCAP"));
+    EXPECT_THAT(message_of([&] { read_log(folder / "bag", testing::no_table_options); }),
+                HasSubstr("bag in the format MCAP"));
 }
 
 TEST(HostileBag, MessagesThatAreAViewWithoutEnd_AreRefused) {
@@ -201,7 +204,7 @@ TEST(HostileBag, MessagesThatAreAViewWithoutEnd_AreRefused) {
                            nullptr, nullptr, nullptr),
               SQLITE_OK);
     sqlite3_close(bag);
-    EXPECT_THAT(message_of([&] { read_log(folder / "b.db3", tables); }),
+    EXPECT_THAT(message_of([&] { read_log(folder / "b.db3", testing::no_table_options); }),
                 HasSubstr("is no bag of ROS 2: Messages is not a plain table"));
 }
 
@@ -242,7 +245,8 @@ TEST(HostileBag, TreeWhosePagesAreReferredToOverAndOver_IsRefused) {
     bytes += leaf;
     bytes[31] = 7;  // the header's number of pages
     const auto file = folder.write("b.db3", bytes);
-    EXPECT_THAT(message_of([&] { read_log(file, tables); }), HasSubstr("b.db3: is damaged"));
+    EXPECT_THAT(message_of([&] { read_log(file, testing::no_table_options); }),
+                HasSubstr("b.db3: is damaged"));
 }
 
 }  // namespace

@@ -25,15 +25,13 @@ using fidservo::testing::text_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const TableOptions no_options{.are_offered = false};
-
 TEST(TableLog, TitlesUnitsGapsAndBigNumbers_AreKept) {
     const TemporaryFolder folder;
     const Log log = read_log(
         folder.write(
             "t.csv",
             "#timestamp [ns],x [mm],note,u_V\n1700000000000000001,1.50,a,\n1700000000000000002,2.25,b,4\n"),
-        no_options);
+        testing::no_table_options);
     ASSERT_EQ(log.signals.size(), 3u);
     EXPECT_THAT(log.signals[0].whole, ElementsAre(1700000000000000001, 1700000000000000002));
     EXPECT_EQ(log.signals[0].unit, "ns");
@@ -54,7 +52,7 @@ TEST(TableLog, LabViewsMeasurementFile_IsReadBelowItsHeader) {
         "Header***\t\n"
         "X_Value\tDrive\tPosition\tComment\n";
     for (int k = 0; k < 200; ++k) text += fmt::format("0,{:03}\t0,{}\t1,{:04}\n", k, 5 + k % 4, k);
-    const Log log = read_log(folder.write("log.lvm", text), no_options);
+    const Log log = read_log(folder.write("log.lvm", text), testing::no_table_options);
     ASSERT_GE(log.signals.size(), 3u);
     EXPECT_EQ(log.signals[2].values.size(), 200u);
     EXPECT_DOUBLE_EQ(log.signals[2].values[30], 1.003);
@@ -63,7 +61,7 @@ TEST(TableLog, LabViewsMeasurementFile_IsReadBelowItsHeader) {
 TEST(MatLog, ObjectsOfMatlab_AreRefusedByNameWithTheLineThatSavesThem) {
     const TemporaryFolder folder;
     const auto file = folder.write("tt.mat", testing::opaque_mat("TT", "timetable"));
-    const std::string message = message_of([&] { read_log(file, no_options); });
+    const std::string message = message_of([&] { read_log(file, testing::no_table_options); });
     EXPECT_THAT(message,
                 HasSubstr("tt.mat: TT: is an object of MATLAB's class timetable, which only MATLAB reads"));
     EXPECT_THAT(message, HasSubstr("timetable2table(TT)"));
@@ -75,7 +73,7 @@ TEST(MatLog, ObjectsOfMatlab_AreRefusedByNameWithTheLineThatSavesThem) {
         {"MyClass", "struct(v)"}};
     for (const auto& one : lines) {
         const auto object = folder.write("o.mat", testing::opaque_mat("v", one.first));
-        EXPECT_THAT(message_of([&] { read_log(object, no_options); }), HasSubstr(one.second));
+        EXPECT_THAT(message_of([&] { read_log(object, testing::no_table_options); }), HasSubstr(one.second));
     }
 }
 
@@ -85,7 +83,7 @@ TEST(MatLog, ObjectBesideNumbers_IsListedAndTheNumbersAreRead) {
                             {{"t", {0, 1, 2}}, {"x_mm", {4, 5, 6}}});
     const std::string object = testing::opaque_mat("when", "datetime");
     std::ofstream(folder / "plain.mat", std::ios::binary | std::ios::app) << object.substr(128);
-    const Log log = read_log(folder / "plain.mat", no_options);
+    const Log log = read_log(folder / "plain.mat", testing::no_table_options);
     ASSERT_NE(log.find("x_mm"), nullptr);
     EXPECT_THAT(log.find("x_mm")->values, ElementsAre(4, 5, 6));
     EXPECT_EQ(log.find("x_mm")->unit, "mm");
@@ -98,7 +96,7 @@ TEST(MatLog, SimulinksStructure_GivesSignalsByLabelWithTheirTimes) {
     for (const auto format : {testing::MatFormat::five, testing::MatFormat::seven_three}) {
         testing::make_simulink_mat(folder / "s.mat", format, {0.0, 0.5},
                                    {{"Drive", {1, 2}}, {"Position", {3, 4}}});
-        const Log log = read_log(folder / "s.mat", no_options);
+        const Log log = read_log(folder / "s.mat", testing::no_table_options);
         ASSERT_NE(log.find("out.Position"), nullptr);
         EXPECT_EQ(log.find("out.Position")->times, "out.time");
         EXPECT_EQ(log.find("out.time")->unit, "s");
@@ -109,11 +107,11 @@ TEST(MatLog, SimulinksStructure_GivesSignalsByLabelWithTheirTimes) {
 TEST(Hdf5Log, TablesAndUnits_AreRead) {
     const TemporaryFolder folder;
     testing::make_hdf5(folder / "u.h5", {{"/a/t", {0, 1}, "seconds"}, {"/a/x", {1, 2}, "m"}});
-    const Log log = read_log(folder / "u.h5", no_options);
+    const Log log = read_log(folder / "u.h5", testing::no_table_options);
     EXPECT_EQ(log.find("/a/x")->unit, "m");
     EXPECT_EQ(log.find("/a/t")->unit, "s");
     testing::make_hdf5_table(folder / "t.h5", "run", {{"t_ns", {0, 5}}, {"x_mm", {1.5, 2.5}}});
-    const Log table = read_log(folder / "t.h5", no_options);
+    const Log table = read_log(folder / "t.h5", testing::no_table_options);
     ASSERT_NE(table.find("/run.x_mm"), nullptr);
     EXPECT_THAT(table.find("/run.x_mm")->values, ElementsAre(1.5, 2.5));
     EXPECT_EQ(table.find("/run.x_mm")->unit, "mm");
@@ -128,7 +126,7 @@ TEST(BagLog, TopicsAreSignalsOnTheirStamps) {
           {{105, testing::joint_state(20, {"a", "b"}, {1, 2})}, {101, testing::joint_state(10, {"b"}, {7})}}},
          {"/u", "std_msgs/msg/Float64", {{1, testing::float64(0.5)}, {2, testing::float64(-0.25)}}},
          {"/other", "nav_msgs/msg/Odometry", {{1, "x"}}}});
-    const Log log = read_log(folder / "b.db3", no_options);
+    const Log log = read_log(folder / "b.db3", testing::no_table_options);
     ASSERT_NE(log.find("/js/position[b]"), nullptr);
     EXPECT_THAT(log.find("/js/position[b]")->values, ElementsAre(7, 2));
     EXPECT_THAT(log.find("/js/stamp")->whole, ElementsAre(10, 20));
@@ -194,7 +192,7 @@ TEST(EurocFolder, GivesItsCameraAndItsTables) {
     std::filesystem::create_directories(folder / "mav0/cam0/data");
     cv::imwrite((folder / "mav0/cam0/data/1403636579763555584.png").string(),
                 cv::Mat(5, 7, CV_8UC1, cv::Scalar(33)));
-    const Log log = read_log(folder.path(), no_options);
+    const Log log = read_log(folder.path(), testing::no_table_options);
     ASSERT_EQ(log.cameras.size(), 1u);
     EXPECT_THAT(log.cameras[0].times_ns, ElementsAre(1403636579763555584));
     EXPECT_EQ(log.cameras[0].frame(0)->image.grey.at<unsigned char>(2, 2), 33);

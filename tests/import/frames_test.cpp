@@ -28,11 +28,9 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const TableOptions no_table{.are_offered = false};
-
 void write_camera(const std::filesystem::path& log, const std::string& camera,
                   const std::filesystem::path& out) {
-    const std::vector<Log> logs{read_log(log, no_table)};
+    const std::vector<Log> logs{read_log(log, testing::no_table_options)};
     const ImportMap map = parse_import_map(
         fmt::format("format: fidservo-map/1\nrecording: {{ name: a, rig: b, experiment: c, tick_s: 0.001 }}\n"
                     "camera: {{ images: {} }}\n",
@@ -111,7 +109,7 @@ TEST(ImportedFrames, ImageOfAFolderThatIsListedAndMissing_IsCountedAndNamed) {
     const TemporaryFolder folder;
     make_euroc_camera(folder);
     std::filesystem::remove(folder / "mav0/cam0/data/1.png");
-    EXPECT_THAT(read_log(folder.path(), no_table).notes,
+    EXPECT_THAT(read_log(folder.path(), testing::no_table_options).notes,
                 Contains("cam0: 1 of 2 images are listed and not there: 1.png"));
 }
 
@@ -144,7 +142,7 @@ TEST(ImportedNames, ControlCharactersOfTopics_AreWrittenOutInTheMapAndFoundByIt)
     testing::BagTopic topic{"/x\x1B[2J\nposition\xC2\x9B", "std_msgs/msg/Float64", {}};
     for (int k = 0; k < 3; ++k) topic.messages.emplace_back(1'000'000 * k, testing::float64(k));
     testing::make_bag(folder / "b.db3", {topic, {"/odd\x1B", "a/msg/B", {}}});
-    const std::vector<Log> logs{read_log(folder / "b.db3", no_table)};
+    const std::vector<Log> logs{read_log(folder / "b.db3", testing::no_table_options)};
     const std::string draft = draft_map(logs);
     EXPECT_THAT(draft, HasSubstr("position: { signal: '/x\\x1B[2J\\x0Aposition\\x9B', unit: mm }"));
     EXPECT_TRUE(

@@ -26,8 +26,6 @@ using ::testing::IsEmpty;
 using ::testing::IsNan;
 using ::testing::Not;
 
-const TableOptions no_table{.are_offered = false};
-
 /// A file of HDF5 while it is made.
 class MadeHdf5 {
   public:
@@ -102,7 +100,7 @@ TEST(Hdf5Log, DatasetsWithoutElements_AreEmptyAndHideNoOthers) {
         made.dataset("none", H5T_NATIVE_DOUBLE, {0, 0});
         made.dataset("rows", H5T_NATIVE_DOUBLE, {0, 3});
     }
-    const Log log = read_log(folder / "e.h5", no_table);
+    const Log log = read_log(folder / "e.h5", testing::no_table_options);
     EXPECT_THAT(values_of(log, "/x"), ElementsAre(1, 2));
     EXPECT_THAT(values_of(log, "/none"), IsEmpty());
     EXPECT_THAT(values_of(log, "/rows"), IsEmpty());
@@ -146,7 +144,7 @@ TEST(Hdf5Log, MembersOfCompounds_AreSignalsInArraysTruthValuesAndCompounds) {
         made.dataset("flags", truth, {flags.size()}, flags.data());
         for (const hid_t one : {pair, truth, inner, word, type}) H5Tclose(one);
     }
-    const Log log = read_log(folder / "c.h5", no_table);
+    const Log log = read_log(folder / "c.h5", testing::no_table_options);
     EXPECT_THAT(values_of(log, "/run.t"), ElementsAre(0.0, 0.5, 1.0));
     EXPECT_THAT(values_of(log, "/run.values_block_0[1]"), ElementsAre(1, 2, 3));
     EXPECT_THAT(values_of(log, "/run.values_block_0[2]"), ElementsAre(10, 20, 30));
@@ -177,7 +175,7 @@ TEST(Hdf5Log, ConventionsOfCf_AreFollowedAndSaid) {
         made.dataset("t", H5T_NATIVE_INT64, {times.size()}, times.data());
         made.number("t", "_FillValue", -1.0);
     }
-    const Log log = read_log(folder / "cf.h5", no_table);
+    const Log log = read_log(folder / "cf.h5", testing::no_table_options);
     EXPECT_THAT(values_of(log, "/x"), ElementsAre(60.0, IsNan(), 50.0));
     EXPECT_THAT(values_of(log, "/y"), ElementsAre(IsNan(), 4.0));
     EXPECT_THAT(fault_of(log, "/z"), HasSubstr("its attribute scale_factor is not one finite number"));
@@ -201,7 +199,7 @@ TEST(Hdf5Log, Units_MayHaveBlanksAndMustAgree) {
         made.text("x_mm", "units", "um");
         made.text("y_mm", "units", "millimeters");
     }
-    const Log log = read_log(folder / "u.h5", no_table);
+    const Log log = read_log(folder / "u.h5", testing::no_table_options);
     EXPECT_EQ(log.find("/blank")->unit, "mm");
     EXPECT_EQ(log.find("/filled")->unit, "furlong");
     EXPECT_EQ(log.find("/two")->unit, "");
@@ -232,7 +230,7 @@ TEST(Hdf5Log, WhatIsPassedOver_IsNamedWithTheReason) {
         made.text("_i_run", "CLASS", "TINDEX");
         made.doubles("_i_run/sorted", {1, 2});
     }
-    const Log log = read_log(folder / "p.h5", no_table);
+    const Log log = read_log(folder / "p.h5", testing::no_table_options);
     const std::string first = log.find("/x")->fault.empty() ? "/x" : "/z";
     EXPECT_THAT(values_of(log, first), ElementsAre(1, 2, 3, 4));
     EXPECT_THAT(fault_of(log, first == "/x" ? "/z" : "/x"), HasSubstr("is another name of " + first));
@@ -253,20 +251,22 @@ TEST(MatLog, CompressedData_AreCheckedToTheirEnd) {
     testing::make_plain_mat(folder / "m.mat", testing::MatFormat::five, {{"x", values}});
     const std::string bytes = text_of(folder / "m.mat");
     constexpr std::size_t first_element = 136;
-    EXPECT_THAT(values_of(read_log(folder / "m.mat", no_table), "x"), ::testing::ContainerEq(values));
+    EXPECT_THAT(values_of(read_log(folder / "m.mat", testing::no_table_options), "x"),
+                ::testing::ContainerEq(values));
     for (std::size_t k = 0; k < 12; ++k) {
         std::string wrong = bytes;
         const std::size_t at = first_element + (k + 1) * (bytes.size() - first_element - 1) / 12;
         wrong[at] = static_cast<char>(wrong[at] ^ (1 << k % 8));
         const auto file = folder.write("wrong.mat", wrong);
-        EXPECT_THAT(message_of([&] { read_log(file, no_table); }),
+        EXPECT_THAT(message_of([&] { read_log(file, testing::no_table_options); }),
                     HasSubstr("wrong.mat: is damaged: the compressed data of its element 1"))
             << "byte " << at;
     }
     std::string wrong = bytes;
     wrong[128] = 11;  // the element's type
     const auto file = folder.write("type.mat", wrong);
-    EXPECT_THAT(message_of([&] { read_log(file, no_table); }), HasSubstr("its element 1 is of type 11"));
+    EXPECT_THAT(message_of([&] { read_log(file, testing::no_table_options); }),
+                HasSubstr("its element 1 is of type 11"));
 }
 
 /// A file of format 7.3 as h5py and hdf5storage write it: attributes without a terminating zero, structures
@@ -314,7 +314,7 @@ void make_mat73(const std::filesystem::path& file) {
 TEST(MatLog, Format73OfOtherPrograms_IsReadInFull) {
     const TemporaryFolder folder;
     make_mat73(folder / "o.mat");
-    const Log log = read_log(folder / "o.mat", no_table);
+    const Log log = read_log(folder / "o.mat", testing::no_table_options);
     EXPECT_THAT(values_of(log, "t"), ElementsAre(0, 1, 2));
     EXPECT_THAT(values_of(log, "u"), ElementsAre(5, 6, 7));
     EXPECT_THAT(values_of(log, "on"), ElementsAre(0, 1, 1));

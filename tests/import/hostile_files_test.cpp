@@ -30,8 +30,6 @@ using fidservo::testing::text_of;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const TableOptions no_options{.are_offered = false};
-
 /// A whole file of each format.
 std::vector<std::string> make_whole_files(const TemporaryFolder& folder) {
     std::vector<double> t, x;
@@ -53,7 +51,7 @@ std::vector<std::string> make_whole_files(const TemporaryFolder& folder) {
 /// What the reader says; empty if it reads the file.
 std::string answer_of(const std::filesystem::path& file) {
     try {
-        read_log(file, no_options);
+        read_log(file, testing::no_table_options);
         return {};
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr(file.filename().string()));

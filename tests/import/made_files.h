@@ -3,6 +3,7 @@
 // Logs as other programs write them, made with the formats' own libraries.
 #include "core/recording.h"
 #include "src/files/recording/layout.h"
+#include "src/files/table/table_structure.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +12,9 @@
 #include <vector>
 
 namespace fidservo::imports::testing {
+
+/// How read_log() reads a table where a map says nothing of it.
+inline const TableOptions no_table_options{.are_offered = false};
 
 /// A signal of a log, or a topic of a bag.
 struct MadeSignal {

@@ -16,9 +16,8 @@ bool is_deep_pnm(std::span<const std::byte> beginning);
 
 /// Decodes the first picture of a file: white is the largest number that its header states, of PBM 0. Of a
 /// PAM the tuple types BLACKANDWHITE, GRAYSCALE and RGB are read, each also with _ALPHA, which is dropped, as
-/// are planes beyond those of its type; one without a tuple type is grey with a depth of 1 and RGB with a
-/// depth of
-/// 3. Fails with Reason::device for any other tuple type, a header that is damaged, a sample above the
+/// are planes beyond those of its type; one without a tuple type is grey with a depth of 1, RGB with one
+/// of 3. Fails with Reason::device for any other tuple type, a header that is damaged, a sample above the
 /// largest number, data that are truncated or that are followed by something else than another picture, or a
 /// side beyond most_side_px. Source: the manual pages pbm(5), pgm(5), ppm(5) and pam(5) of netpbm.
 Result<StoredImage> decode_pnm(std::span<const std::byte> file);
