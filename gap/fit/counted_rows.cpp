@@ -9,6 +9,7 @@ CountedRows::CountedRows(std::span<const Window> windows, const Wanted& counted)
     for (std::size_t w = 0; w < windows.size(); ++w) {
         if (counted[w] == 0) continue;
         Window window = windows[w];
+        places_.push_back(w);
         begins_.push_back(window.begin);
         window.begin = rows_;
         rows_ += windows[w].end - windows[w].begin;
@@ -24,6 +25,13 @@ Errors CountedRows::of(const Errors& errors) const {
         std::copy_n(errors.begin() + static_cast<std::ptrdiff_t>(begins_[w]),
                     windows_[w].end - windows_[w].begin,
                     of_counted.begin() + static_cast<std::ptrdiff_t>(windows_[w].begin));
+    return of_counted;
+}
+
+Wanted CountedRows::flags_of(const Wanted& flags) const {
+    Wanted of_counted;
+    of_counted.reserve(places_.size());
+    for (const std::size_t place : places_) of_counted.push_back(flags[place]);
     return of_counted;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Errors of the windows that count, without the rows of all others: a fit keeps them for each parameter.
+// Errors of the windows that count, without the rows of all others: much less to keep for each parameter.
 #include "gap/evidence.h"
 
 #include <span>
@@ -21,8 +21,12 @@ class CountedRows {
     /// @param errors  of all windows
     Errors of(const Errors& errors) const;
 
+    /// Of flags of all windows those of the counted ones.
+    Wanted flags_of(const Wanted& flags) const;
+
   private:
     std::vector<Window> windows_;
+    std::vector<std::size_t> places_;  ///< of each counted window among all
     std::vector<std::size_t> begins_;  ///< of each counted window among the errors of all
     std::size_t rows_ = 0;
 };

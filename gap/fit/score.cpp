@@ -76,12 +76,17 @@ double total_loss(std::span<const Window> windows, const Wanted& counted, const 
 double gained(std::span<const Window> windows, const Wanted& counted, std::span<const double> base_squares,
               const Errors& errors) {
     if (errors.empty()) return -std::numeric_limits<double>::infinity();
+    std::vector<double> squares(windows.size(), std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t w = 0; w < windows.size(); ++w)
+        if (counted[w] != 0) squares[w] = mean_square(windows[w], errors);
+    return gained(counted, base_squares, squares);
+}
+
+double gained(const Wanted& counted, std::span<const double> base_squares, std::span<const double> squares) {
     double gain = 0.0;
-    for (std::size_t w = 0; w < windows.size(); ++w) {
-        if (counted[w] == 0 || std::isnan(base_squares[w])) continue;
-        const double square = mean_square(windows[w], errors);
-        if (!std::isnan(square)) gain += window_loss(base_squares[w]) - window_loss(square);
-    }
+    for (std::size_t w = 0; w < squares.size(); ++w)
+        if (counted[w] != 0 && !std::isnan(base_squares[w]) && !std::isnan(squares[w]))
+            gain += window_loss(base_squares[w]) - window_loss(squares[w]);
     return gain;
 }
 

@@ -34,6 +34,9 @@ double total_loss(std::span<const Window> windows, const Wanted& counted, const 
 double gained(std::span<const Window> windows, const Wanted& counted, std::span<const double> base_squares,
               const Errors& errors);
 
+/// The same for mean squares of both.
+double gained(const Wanted& counted, std::span<const double> base_squares, std::span<const double> squares);
+
 /// How a second hypothesis compares with a first one on the same windows.
 struct Comparison {
     double gain = 0.0;  ///< sum over windows of the loss that the second one saves

@@ -2,6 +2,7 @@
 #include "gap/search/search.h"
 
 #include "core/parallel.h"
+#include "gap/fit/counted_rows.h"
 #include "gap/search/contender.h"
 #include "gap/starts/starts.h"
 
@@ -203,7 +204,14 @@ void Search::look_at(const CrossFit& base, std::span<Contender> contenders) {
     SignalFlags seen{};
     for (const Contender* contender : fresh) seen = either(seen, contender->teachers());
     const Wanted looked_at = fitter_.instructive_of(0, seen, base.mean_squares);
-    const Errors base_errors = fitter_.evidence().errors(base.of_half[0], looked_at);
+    const CountedRows rows(windows, looked_at);
+    const Wanted all(rows.windows().size(), 1);
+    const auto predictor = [&](const Wanted& wanted) -> Predict {
+        return [&rows, predict = fitter_.predictor(wanted)](const Hypothesis& hypothesis) {
+            return rows.of(predict(hypothesis));
+        };
+    };
+    const Errors base_errors = rows.of(fitter_.evidence().errors(base.of_half[0], looked_at));
     std::vector<const Candidate*> asking;
     asking.reserve(fresh.size());
     for (const Contender* contender : fresh) asking.push_back(contender->trial.candidate);
@@ -212,15 +220,15 @@ void Search::look_at(const CrossFit& base, std::span<Contender> contenders) {
     for (const Contender* contender : fresh)
         if (!beside.contains(contender->coupled))
             beside.emplace(contender->coupled,
-                           surroundings(fitter_.predictor(looked_at), windows, looked_at, base.of_half[0],
+                           surroundings(predictor(looked_at), rows.windows(), all, base.of_half[0],
                                         base_errors, contender->coupled));
     parallel_for(fresh.size(), [&](std::size_t c) {
         const Candidate& candidate = *fresh[c]->trial.candidate;
         const Wanted wanted = only_of(windows, looked_at, fresh[c]->teachers());
-        const Predict predict = fitter_.predictor(wanted);
         const Surroundings& here = beside.at(fresh[c]->coupled);
         Finding& finding = *fresh[c]->finding;
-        finding.starts = starts_of(candidate, along, predict, windows, wanted, here);
+        finding.starts =
+            starts_of(candidate, along, predictor(wanted), rows.windows(), rows.flags_of(wanted), here);
         finding.is_looked_at = true;
     });
 }

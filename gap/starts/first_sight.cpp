@@ -2,7 +2,6 @@
 #include "gap/starts/first_sight.h"
 
 #include "core/parallel.h"
-#include "gap/fit/minimum_norm.h"
 #include "gap/fit/score.h"
 #include "gap/fit/slopes.h"
 
@@ -39,45 +38,6 @@ bool has_other_side(const Candidate& candidate) {
     });
 }
 
-/// The base's errors plus the given shares of some changes.
-Errors added(const Errors& base, const std::vector<Errors>& changes, const Eigen::VectorXd& shares) {
-    Errors sum = base;
-    for (std::size_t k = 0; k < changes.size(); ++k)
-        for (std::size_t i = 0; i < sum.size(); ++i)
-            sum[i] += static_cast<float>(shares(static_cast<Eigen::Index>(k))) * changes[k][i];
-    return sum;
-}
-
-/// The shares of some changes that minimise the squares of the errors, weighted as in the loss at the base.
-Eigen::VectorXd best_shares(std::span<const Window> windows, const Wanted& counted, const Errors& base,
-                            const std::vector<Errors>& changes) {
-    const auto width = static_cast<Eigen::Index>(changes.size());
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(width, width);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(width), change(width);
-    for (std::size_t w = 0; w < windows.size(); ++w) {
-        if (counted[w] == 0) continue;
-        Eigen::MatrixXd own = Eigen::MatrixXd::Zero(width, width);
-        Eigen::VectorXd own_right = Eigen::VectorXd::Zero(width);
-        double squares = 0.0, count = 0.0;
-        for (std::size_t row = windows[w].begin; row < windows[w].end; ++row) {
-            if (std::isnan(base[row])) continue;
-            for (Eigen::Index k = 0; k < width; ++k) {
-                const float value = changes[static_cast<std::size_t>(k)][row];
-                change(k) = std::isfinite(value) ? value : 0.0F;
-            }
-            own.selfadjointView<Eigen::Lower>().rankUpdate(change);
-            own_right -= static_cast<double>(base[row]) * change;
-            squares += static_cast<double>(base[row]) * base[row];
-            count += 1.0;
-        }
-        if (count == 0.0) continue;
-        normal += own / (count + squares);
-        right += own_right / (count + squares);
-    }
-    const Eigen::MatrixXd full = normal.selfadjointView<Eigen::Lower>();
-    return minimum_norm_solution(full, right);
-}
-
 }  // namespace
 
 plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>& shape,
@@ -95,17 +55,17 @@ plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>
 
 Surroundings surroundings(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
                           const Hypothesis& base, const Errors& base_errors, const Places& places) {
-    Surroundings beside{base, base_errors, places, ScaledParameters(part_of(base, places)), {}, {}};
+    const ScaledParameters parameters(part_of(base, places));
     const Predict predict_part = [&](const Hypothesis& part) {
         return predict(with_part(base, places, part));
     };
-    beside.slopes.resize(beside.parameters.size());
-    parallel_for(beside.slopes.size(), [&](std::size_t k) {
-        beside.slopes[k] = slope(predict_part, beside.parameters, k, base_errors);
-    });
-    if (!beside.slopes.empty())
-        beside.moved =
-            predict_part(moved(beside.parameters, best_shares(windows, counted, base_errors, beside.slopes)));
+    std::vector<Errors> slopes(parameters.size());
+    parallel_for(slopes.size(),
+                 [&](std::size_t k) { slopes[k] = slope(predict_part, parameters, k, base_errors); });
+    Surroundings beside{
+        base, base_errors, places, parameters, LinearErrors(windows, base_errors, std::move(slopes)), {}};
+    if (parameters.size() > 0)
+        beside.moved = predict_part(moved(parameters, beside.linear.optimum(counted).shares));
     return beside;
 }
 
@@ -127,7 +87,7 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
     constexpr double shorter = 0.4, further = 2.5, furthest = 100.0;
     constexpr std::size_t most_places = 8, most_starts = 4;
     const auto width = static_cast<Eigen::Index>(candidate.sizes.size());
-    const auto moving = static_cast<Eigen::Index>(beside.slopes.size());
+    const auto moving = beside.linear.size();
     const Eigen::VectorXd unmoved = Eigen::VectorXd::Zero(moving);
     struct Place {
         std::vector<double> shape;
@@ -143,7 +103,7 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
         return place.expected_gain - without < hopeless_gain && place.probe_gain <= 0.0;
     };
     const auto probed = [&](const std::vector<double>& shape, double share) -> std::optional<Place> {
-        std::vector<Errors> changes = beside.slopes;
+        std::vector<Errors> changes;
         double probe_gain = -std::numeric_limits<double>::infinity();
         for (Eigen::Index k = 0; k < width; ++k) {
             const Hypothesis part =
@@ -155,9 +115,9 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
                 change[i] = (change[i] - beside.errors[i]) / static_cast<float>(share);
             changes.push_back(std::move(change));
         }
-        const Eigen::VectorXd steps = best_shares(windows, counted, beside.errors, changes);
-        const double expected = gained(windows, counted, base_squares, added(beside.errors, changes, steps));
-        return Place{shape, steps, expected, probe_gain};
+        LinearErrors::Optimum optimum = beside.linear.optimum(counted, std::move(changes));
+        const double expected = gained(counted, base_squares, optimum.mean_squares);
+        return Place{shape, std::move(optimum.shares), expected, probe_gain};
     };
     for (const std::vector<double>& shape : candidate.shapes) {
         std::optional<Place> place = probed(shape, probe);

@@ -5,6 +5,7 @@
 #include "gap/candidates/coupling.h"
 #include "gap/candidates/scaled_parameters.h"
 #include "gap/fit/fit.h"
+#include "gap/starts/linear_errors.h"
 
 #include <vector>
 
@@ -19,12 +20,13 @@ struct Surroundings {
     Errors errors;  ///< of the base
     Places places;  ///< indices of the settings that may be refitted
     ScaledParameters parameters;
-    std::vector<Errors> slopes;  ///< derivatives of the errors with respect to these parameters
+    LinearErrors linear;  ///< the errors, and their derivatives with respect to these parameters
     /// Errors of the base when these parameters are refitted to first order; empty if there are none.
     Errors moved;
 };
 
-/// @param counted  the windows that `predict` predicts
+/// @param windows  must outlive what is returned
+/// @param counted  those of them that `predict` predicts
 Surroundings surroundings(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
                           const Hypothesis& base, const Errors& base_errors, const Places& places);
 

@@ -28,6 +28,10 @@ TEST(CountedRows, OfSomeWindows_AreTheirErrorsOneAfterTheOther) {
     EXPECT_EQ(rows.windows()[1].end, 3U);
 }
 
+TEST(CountedRows, FlagsOfAllWindows_AreThoseOfTheCountedOnes) {
+    EXPECT_EQ(CountedRows(of_three_lengths, {1, 0, 1}).flags_of({0, 1, 1}), (Wanted{0, 1}));
+}
+
 TEST(CountedRows, OfWhatThePlantRefused_AreNone) {
     EXPECT_TRUE(CountedRows(of_three_lengths, {1, 1, 1}).of({}).empty());
 }
