@@ -114,6 +114,7 @@ void smooth(const PlatformRun& run, const Stretch& piece, std::span<const double
     for (std::size_t i = 0; i < rows; ++i) {
         const std::size_t k = piece.first + i;
         const Stretch fitted = stretch_around(i, half_widths[steady[i]], rows);
+        found.model_lsb[k] = path_lsb[k];
         found.reading_lsb[k] = path_lsb[k] + residual_fits.line(i, fitted.first, fitted.end);
         found.std_lsb[k] =
             bias_share * run.floor_lsb * std::sqrt(LineFits::variance(i, fitted.first, fitted.end));
@@ -137,9 +138,10 @@ void hold(std::vector<double>& values, double none) {
 SmoothedReading smoothed_reading(const PlatformRun& run, std::span<const double> path_lsb,
                                  double command_limit_V) {
     const std::vector<double> none(run.hall_adc.size(), std::numeric_limits<double>::quiet_NaN());
-    SmoothedReading found{none, none, none, none, {}};
+    SmoothedReading found{none, none, none, none, none, {}};
     for (const Stretch& piece : pieces_of(run)) smooth(run, piece, path_lsb, command_limit_V, found);
     hold(found.reading_lsb, 0.0);
+    hold(found.model_lsb, 0.0);
     hold(found.std_lsb, run.floor_lsb);
     hold(found.readings, 1.0);
     hold(found.drive_V, 0.0);

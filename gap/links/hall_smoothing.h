@@ -21,6 +21,9 @@ namespace fidservo::gap {
 /// One value for each row; rows without a reading have the value of the row before.
 struct SmoothedReading {
     std::vector<double> reading_lsb;
+    /// What the rig file's model gives; its rate jumps where the heater's command changes, that of the
+    /// difference hardly does.
+    std::vector<double> model_lsb;
     std::vector<double> std_lsb;
     std::vector<double> readings;  ///< number of readings to which the row's line is fitted
     /// The (limited) macro command of the row before, smoothed in the same way: the share of it that leaks

@@ -5,6 +5,7 @@
 #include "core/median.h"
 #include "core/rig.h"
 #include "gap/evidence/plate_tag.h"
+#include "gap/links/between_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,53 +21,6 @@ constexpr double way_share = 0.02;
 /// Standard deviation of a position within its count, in counts.
 const double hidden_count = 1.0 / std::sqrt(12.0);
 
-/// A time between two rows.
-struct Moment {
-    std::size_t row;
-    double share;  ///< of the time to the next row
-    bool is_tick;  ///< whether the next row is one tick away
-};
-
-/// Times before the first row count as that row's, times after the last one as that one's.
-Moment moment_at(const TagRun& run, double at_s) {
-    const std::vector<double>& time_s = run.time_s;
-    const std::size_t last = time_s.size() - 1;
-    if (last == 0 || at_s <= time_s.front()) return {0, 0.0, true};
-    if (at_s >= time_s.back()) return {last - 1, 1.0, true};
-    auto row = std::min(static_cast<std::size_t>(at_s / run.tick_s), last - 1);
-    if (time_s[row] > at_s || time_s[row + 1] <= at_s)
-        row = static_cast<std::size_t>(std::ranges::upper_bound(time_s, at_s) - time_s.begin()) - 1;
-    const double way_s = time_s[row + 1] - time_s[row];
-    return {row, (at_s - time_s[row]) / way_s, way_s < 1.5 * run.tick_s};
-}
-
-std::size_t nearest_row(const TagRun& run, double at_s) {
-    const Moment at = moment_at(run, at_s);
-    return at.share < 0.5 ? at.row : at.row + 1;
-}
-
-/// Cubic interpolation by the path's positions and velocities (Hermite); linear where rows are missing.
-double carriage_mm(const CarriagePath& path, const Moment& at, double tick_s) {
-    const double t = at.share;
-    if (t == 0.0) return path.position_mm[at.row];
-    const double a = path.position_mm[at.row], b = path.position_mm[at.row + 1];
-    if (!at.is_tick) return a + t * (b - a);
-    const double va = tick_s * path.velocity_mm_per_s[at.row],
-                 vb = tick_s * path.velocity_mm_per_s[at.row + 1];
-    const double way = b - a;
-    return a + t * (va + t * (3.0 * way - 2.0 * va - vb + t * (va + vb - 2.0 * way)));
-}
-
-/// Cubic interpolation by four neighbours (Catmull and Rom).
-double between(const std::vector<double>& values, const Moment& at) {
-    const std::size_t i = at.row, last = values.size() - 1;
-    if (at.share == 0.0) return values[i];
-    const double b = values[i], c = values[i + 1];
-    const double a = i == 0 ? b : values[i - 1], d = i + 2 > last ? c : values[i + 2];
-    const double t = at.share;
-    return b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));
-}
-
 /// The camera's position as a function of the time since the recording's first row.
 class CameraPlace {
   public:
@@ -75,7 +29,7 @@ class CameraPlace {
         : model_(model), run_(run), path_(path), reading_(reading) {}
 
     double s_mm(double at_s) const {
-        const Moment at = moment_at(run_, at_s);
+        const Moment at = moment_at(run_.time_s, run_.tick_s, at_s);
         const double y_mm = carriage_mm(path_, at, run_.tick_s);
         return reading_ == nullptr ? y_mm : y_mm + platform_mm(at, at_s);
     }
@@ -83,7 +37,7 @@ class CameraPlace {
     /// In the 100 ms before a window: how far the simulation that leads into it is from the path, which is
     /// there faded over from the window before; 0 elsewhere.
     double entering_mm(double at_s) const {
-        const std::size_t row = moment_at(run_, at_s).row;
+        const std::size_t row = moment_at(run_.time_s, run_.tick_s, at_s).row;
         const double entering = path_.entering_mm[row];
         return std::isfinite(entering) ? entering - path_.position_mm[row] : 0.0;
     }
@@ -110,7 +64,7 @@ class CameraPlace {
     double platform_mm(const Moment& at, double at_s) const {
         const plant::MicroStageParameters& micro = *model_.micro;
         const plant::HallDisturbance& disturbance = micro.hall_disturbance;
-        double voltage_V = between(reading_->reading_lsb, at) * hall_lsb_V(micro.hall);
+        double voltage_V = reading_lsb(*reading_, at) * hall_lsb_V(micro.hall);
         if (!disturbance.is_none())
             voltage_V -= disturbance.drift_V(at_s) +
                          disturbance.leak_V_per_V * model_.drive_gain * between(reading_->drive_V, at);
@@ -288,7 +242,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
         double weights = 0.0, weighted_strayed = 0.0, weighted_platform = 0.0;  // units: 1/px^2, 1/px^2, 1
         for (std::size_t i = window.lead; i < window.end; ++i) {
             TagSighting& sighting = run.sightings[i];
-            const Moment at = moment_at(run, sighting.stamp_s);
+            const Moment at = moment_at(run.time_s, run.tick_s, sighting.stamp_s);
             CornerValues slope = seen_slope(camera, sighting, path.position_mm[at.row]);
             const double platform_mm = reading ? reading->std_lsb[at.row] * mm_per_lsb(rig.micro->hall) : 0.0;
             const double strayed_mm = std::min(hidden_mm, way_share * (way_mm[at.row] - way_mm[rows.lead]));
@@ -314,8 +268,9 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
                 std::hypot(std::hypot(noise.corner_px, offset_px), std::hypot(platform_px, strayed_px));
             if (noise.readout_s == 0.0) continue;
             const Eigen::Vector4d late_s = row_delays_s(sighting, rig.camera->geometry, noise.readout_s);
-            const std::size_t from = nearest_row(run, sighting.stamp_s + late_s.minCoeff()),
-                              to = nearest_row(run, sighting.stamp_s + late_s.maxCoeff());
+            const std::size_t from =
+                                  nearest_row(run.time_s, run.tick_s, sighting.stamp_s + late_s.minCoeff()),
+                              to = nearest_row(run.time_s, run.tick_s, sighting.stamp_s + late_s.maxCoeff());
             const double by_reading_mm =
                 reading ? changed_lsb(*reading, from, to) * mm_per_lsb(rig.micro->hall) : 0.0;
             add_change(sighting, slope, late_s,
