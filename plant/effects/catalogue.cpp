@@ -3,6 +3,7 @@
 
 #include "core/demand.h"
 #include "core/input_error.h"
+#include "core/rig.h"
 #include "plant/formulas/formula_effect.h"
 
 #include <algorithm>
@@ -96,6 +97,15 @@ void put(const Effect& effect, PlantParameters& plant, std::span<const double> v
         add_formula(*effect.formula, plant, values);
     else
         effect.apply(plant, values);
+}
+
+StatedEffect stated(const EffectSetting& setting) {
+    const Effect& effect = *setting.effect;
+    StatedEffect in_file{std::string(effect.name), {}};
+    if (effect.formula != nullptr) in_file.formula = effect.formula->effect();
+    for (std::size_t k = 0; k < setting.values.size(); ++k)
+        in_file.parameters.push_back({std::string(effect.parameters[k].name), setting.values[k]});
+    return in_file;
 }
 
 EffectSetting typical_setting(const Effect& effect) {

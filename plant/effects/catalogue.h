@@ -31,6 +31,9 @@ EffectSetting parse_effect(std::string_view text, std::span<const Effect* const>
 /// InputError like parse_effect.
 EffectSetting setting_of(const StatedEffect& stated);
 
+/// A setting as a rig file states it, with its formula if it is one.
+StatedEffect stated(const EffectSetting& setting);
+
 /// All parameters at their typical values.
 EffectSetting typical_setting(const Effect& effect);
 

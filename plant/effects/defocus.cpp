@@ -25,6 +25,7 @@ extern constexpr Effect defocus{
     .source = "Pentland, A new sense for depth of field, IEEE Trans. PAMI 9(4), 1987: defocus as a Gaussian",
     .parameters = parameters,
     .apply = apply,
+    .again = Again::adds_squares,
 };
 
 }  // namespace fidservo::plant::effects

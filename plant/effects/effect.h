@@ -113,6 +113,14 @@ struct PlainerForm {
     double (*size)(std::span<const double> richer, double middle_mm) = nullptr;
 };
 
+/// What the sizes of an effect do that is put into a plant which has the effect already. Its other parameters
+/// take the place of those before.
+enum class Again {
+    adds,          ///< sizes add up or, of factors, multiply
+    adds_squares,  ///< sizes add up in quadrature
+    replaces,      ///< sizes take the place of those before, too
+};
+
 /// An effect of the catalogue, with everything that is known of it.
 struct Effect {
     std::string_view name;                        ///< by which files and options call it
@@ -128,7 +136,8 @@ struct Effect {
     /// carriage's absolute position. What is periodic along the rail does not need it: its phase may be
     /// counted from anywhere.
     bool needs_place = false;
-    PlainerForm plainer = {};  ///< the simpler effect that it contains
+    PlainerForm plainer = {};   ///< the simpler effect that it contains
+    Again again = Again::adds;  ///< what happens where the plant has it already
     /// Another effect from which no recording can distinguish it.
     const Effect* same_as = nullptr;
     /// The formula that acts in place of apply (plant/formulas/formula_effect.h); nullptr for effects of the

@@ -49,6 +49,7 @@ extern constexpr Effect macro_coupling{
         "Howell, Compliant Mechanisms, 2001: flexures",
     .parameters = parameters,
     .apply = apply,
+    .again = Again::replaces,
 };
 
 }  // namespace fidservo::plant::effects

@@ -27,8 +27,8 @@ void apply(PlantParameters& plant, std::span<const double> values) {
     const double level_V = values[0], distance_mm = 1e-3 * values[1];
     Friction& friction = plant.axis.friction;
     friction.coulomb_V += level_V;
-    friction.bristle_mm += distance_mm;
-    friction.bristle_damping_V_s_per_mm += std::min(values[2], longest_relaxation_s * level_V / distance_mm);
+    friction.bristle_mm = distance_mm;
+    friction.bristle_damping_V_s_per_mm = std::min(values[2], longest_relaxation_s * level_V / distance_mm);
     friction.bristles_are_springs = parameters[3].is_high(values[3]);
 }
 

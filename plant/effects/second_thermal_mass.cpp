@@ -58,6 +58,7 @@ extern constexpr Effect second_thermal_mass{
         "capacitances",
     .parameters = parameters,
     .apply = apply,
+    .again = Again::replaces,
 };
 
 }  // namespace fidservo::plant::effects

@@ -30,6 +30,7 @@ extern constexpr Effect sensor_noise{
     .source = "EMVA Standard 1288, Release 4.0, 2021: temporal dark noise, photo response non-uniformity",
     .parameters = parameters,
     .apply = apply,
+    .again = Again::adds_squares,
 };
 
 }  // namespace fidservo::plant::effects
