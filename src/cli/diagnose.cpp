@@ -96,10 +96,6 @@ int diagnose_rig(const DiagnoseOptions& options, const Rig& rig, const gap::Diag
     evidence.budget()->end();
     fmt::print("{}", describe(diagnosis));
     if (!options.json.empty()) write_or_throw(options.json, diagnosis_json(diagnosis));
-    if (!options.write_rig.empty()) {
-        write_diagnosed_rig(options.write_rig, options.rig_file, diagnosis);
-        fmt::print("rig file: {}\n", options.write_rig.string());
-    }
     if (designed) fmt::print("experiment: {}\n", options.write_experiment.string());
     if (!options.report.empty()) {
         write_or_throw(options.report, diagnose::diagnosis_report(evidence, diagnosis,
@@ -110,6 +106,10 @@ int diagnose_rig(const DiagnoseOptions& options, const Rig& rig, const gap::Diag
                                                                    .written_rig = options.write_rig,
                                                                    .designed = designed}));
         fmt::print("report: {}\n", options.report.string());
+    }
+    if (!options.write_rig.empty()) {
+        write_diagnosed_rig(options.write_rig, options.rig_file, diagnosis);
+        fmt::print("rig file: {}\n", options.write_rig.string());
     }
     return exit_done;
 }

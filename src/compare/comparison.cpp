@@ -7,6 +7,7 @@
 #include "gap/fit/fit.h"
 #include "gap/fit/gap_size.h"
 #include "gap/fit/score.h"
+#include "plant/effects/catalogue.h"
 #include "src/diagnose/thinned.h"
 #include "src/diagnose/time_limit.h"
 
@@ -72,12 +73,7 @@ bool predicts_worse(const gap::Evidence& evidence, const gap::Hypothesis& own,
 }
 
 Rig with_stated(Rig rig, const gap::Hypothesis& hypothesis) {
-    for (const plant::EffectSetting& setting : hypothesis) {
-        StatedEffect stated{std::string(setting.effect->name), {}};
-        for (std::size_t k = 0; k < setting.values.size(); ++k)
-            stated.parameters.push_back({std::string(setting.effect->parameters[k].name), setting.values[k]});
-        rig.effects.push_back(std::move(stated));
-    }
+    for (const plant::EffectSetting& setting : hypothesis) rig.effects.push_back(plant::stated(setting));
     return rig;
 }
 

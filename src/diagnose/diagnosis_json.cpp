@@ -2,6 +2,7 @@
 #include "src/diagnose/diagnosis_json.h"
 
 #include "core/rig.h"
+#include "plant/effects/catalogue.h"
 #include "src/diagnose/verdict_words.h"
 #include "src/files/rig/rig_edit.h"
 
@@ -73,13 +74,17 @@ Json json_of(const std::optional<gap::ProposedExperiment>& proposed) {
         {"experiment", proposed->experiment}, {"separates", proposed->separates}, {"text", proposed->text}};
 }
 
+std::string described(const gap::FittedParameter& parameter) {
+    const std::string uncertain =
+        std::isfinite(parameter.std) ? fmt::format("+- {:.2g}", parameter.std) : "+- not known";
+    return fmt::format("    {} = {:.6g} {} {}\n", parameter.name, parameter.value, uncertain, parameter.unit);
+}
+
 std::string described(const gap::FoundEffect& effect) {
     std::string text =
         fmt::format("  {} ({}), probability {:.2f}, gap removed so far {:.1f} %\n", effect.effect,
                     effect.block, effect.probability, 100.0 * effect.gap_removed);
-    for (const gap::FittedParameter& parameter : effect.parameters)
-        text += fmt::format("    {} = {:.6g} +- {:.2g} {}\n", parameter.name, parameter.value, parameter.std,
-                            parameter.unit);
+    for (const gap::FittedParameter& parameter : effect.parameters) text += described(parameter);
     if (!effect.indistinguishable_from.empty())
         text += fmt::format("    these data cannot tell it from: {}\n",
                             fmt::join(effect.indistinguishable_from, ", "));
@@ -95,9 +100,7 @@ std::string described(const gap::Equation& equation) {
     if (equation.gap_removed_of_kinds_left_out)
         text += fmt::format("    of experiments of a kind that it was not fitted to {:.1f} %\n",
                             100.0 * *equation.gap_removed_of_kinds_left_out);
-    for (const gap::FittedParameter& parameter : equation.parameters)
-        text += fmt::format("    {} = {:.6g} +- {:.2g} {}\n", parameter.name, parameter.value, parameter.std,
-                            parameter.unit);
+    for (const gap::FittedParameter& parameter : equation.parameters) text += described(parameter);
     return text;
 }
 
@@ -179,13 +182,7 @@ void write_diagnosed_rig(const std::filesystem::path& file, const std::filesyste
         if (equation->in_place_of_names) settings.clear();
         settings.push_back(equation->setting);
     }
-    for (const plant::EffectSetting& setting : settings) {
-        StatedEffect stated{std::string(setting.effect->name), {}};
-        if (setting.effect->formula != nullptr) stated.formula = setting.effect->formula->effect();
-        for (std::size_t k = 0; k < setting.values.size(); ++k)
-            stated.parameters.push_back({std::string(setting.effect->parameters[k].name), setting.values[k]});
-        edit.state_effect(stated);
-    }
+    for (const plant::EffectSetting& setting : settings) edit.add_effect(plant::stated(setting));
     edit.save(file);
 }
 

@@ -18,7 +18,8 @@ std::string diagnosis_json(const gap::Diagnosis& diagnosis);
 /// The result of a diagnosis as text for a terminal.
 std::string describe(const gap::Diagnosis& diagnosis);
 
-/// A copy of a rig file that states the diagnosed effects. Throws InputError if `file` exists.
+/// A copy of a rig file with the diagnosed effects, beside or in one with those that it states
+/// (RigEdit::add_effect). Throws InputError if `file` exists, or where the two cannot be one.
 void write_diagnosed_rig(const std::filesystem::path& file, const std::filesystem::path& source,
                          const gap::Diagnosis& diagnosis);
 

@@ -3,6 +3,7 @@
 
 #include "core/input_error.h"
 #include "core/rig.h"
+#include "plant/effects/together.h"
 #include "src/files/disk/durable_file.h"
 #include "src/files/rig/camera_info.h"
 #include "src/files/rig/effects_file.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -106,6 +108,14 @@ struct RigEdit::Impl {
     YAML::Node root;
     std::shared_ptr<const FodTable> fod;
 
+    /// Of an effect among those that the file states.
+    std::optional<std::size_t> place_of(std::string_view effect) const {
+        const YAML::Node effects = root["effects"];
+        for (std::size_t i = 0; i < effects.size(); ++i)
+            if (effects[i]["name"].as<std::string>() == effect) return i;
+        return {};
+    }
+
     void set(std::string_view key, const YAML::Node& value) {
         if (is_intrinsic(key)) {
             root["camera"].remove("geometry_covariance");  // said of other intrinsics
@@ -149,12 +159,27 @@ void RigEdit::state_effect(const StatedEffect& effect) {
             entry[parameter.name] = digits_of(parameter.value);
     }
     YAML::Node effects = impl_->root["effects"];
-    for (std::size_t i = 0; i < effects.size(); ++i)
-        if (effects[i]["name"].as<std::string>() == effect.name) {
-            effects[i] = entry;
-            return;
-        }
-    effects.push_back(entry);
+    if (const auto at = impl_->place_of(effect.name))
+        effects[*at] = entry;
+    else
+        effects.push_back(entry);
+}
+
+void RigEdit::add_effect(const StatedEffect& found) {
+    const auto at = impl_->place_of(found.name);
+    if (!at) return state_effect(found);
+    StatedEffect stated{found.name, {}};
+    for (const auto& entry : impl_->root["effects"][*at]) {
+        const auto key = entry.first.as<std::string>();
+        if (key == "name") continue;
+        if (found.formula || !entry.second.IsScalar())
+            throw InputError(
+                fmt::format("{}: effects: {}: is a formula that the file states already; allowed: "
+                            "another name for what acts beside it",
+                            impl_->source.string(), found.name));
+        stated.parameters.push_back({key, entry.second.as<double>()});
+    }
+    state_effect(plant::together(stated, found));
 }
 
 void RigEdit::set_fod(std::shared_ptr<const FodTable> table) {

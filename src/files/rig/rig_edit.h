@@ -40,6 +40,9 @@ class RigEdit {
     void set_name(std::string_view key, std::string_view name);
     /// Adds an effect to those that the file states, or replaces the one of the same name.
     void state_effect(const StatedEffect& effect);
+    /// Adds what was found beside the effects that the file states: an effect that it states, too, becomes
+    /// one with it (plant/effects/together.h). Throws InputError where that is not possible.
+    void add_effect(const StatedEffect& found);
     /// Writes the table beside the rig file, as NAME_fod.csv, and refers to it.
     void set_fod(std::shared_ptr<const FodTable> table);
     void set_provenance(const RigProvenance& provenance);

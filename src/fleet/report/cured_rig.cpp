@@ -21,7 +21,7 @@ bool write_cured_rig(const std::filesystem::path& file, const std::filesystem::p
     }
     if (cures.empty()) return false;
     RigEdit edit(source);
-    for (const StatedEffect& cure : cures) edit.state_effect(cure);
+    for (const StatedEffect& cure : cures) edit.add_effect(cure);
     std::filesystem::remove(file);
     edit.save(file);
     return true;
