@@ -5,6 +5,7 @@
 #include "gap/search/at_once.h"
 #include "gap/search/exchange.h"
 #include "gap/search/growth.h"
+#include "gap/search/one_or_several.h"
 
 #include <algorithm>
 #include <functional>
@@ -82,6 +83,17 @@ std::vector<const Candidate*> limits_in(const Chain& chain) {
 Chain nameable(const Search& search, Chain chain) {
     for (std::size_t k = chain.choices.size(); k-- > 0;)
         if (chain.choices[k].candidate->is_limit) chain = without(search, chain, k);
+    return chain;
+}
+
+/// The same without another prediction: what is left is judged as it was beside them.
+Chain nameable_as_judged(Chain chain) {
+    for (std::size_t k = chain.choices.size(); k-- > 0;) {
+        if (!chain.choices[k].candidate->is_limit) continue;
+        const auto at = static_cast<std::ptrdiff_t>(k);
+        chain.choices.erase(chain.choices.begin() + at);
+        for (Hypothesis& hypothesis : chain.fitted.of_half) hypothesis.erase(hypothesis.begin() + at);
+    }
     return chain;
 }
 
@@ -182,7 +194,7 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     std::erase_if(selection.alone, [](const Trial& trial) { return trial.candidate->is_limit; });
     try {
         if (search.is_at_floor(chain.fitted)) selection.limits = limits_in(chain);
-        chain = without_needless(search, evidence, nameable(search, std::move(chain)));
+        chain = without_needless(search, evidence, nameable(search, chain));
         put_largest_first(search, chain);
         for (std::size_t k = 0; k < chain.choices.size(); ++k)
             chain.choices[k].left_out = left_out_of(search, chain, k);
@@ -191,6 +203,7 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
         selection.steps.insert(selection.steps.end(), steps.begin(), steps.end());
     } catch (const BudgetEnded& ended) {
         selection.ended = ended.how();
+        chain = nameable_as_judged(std::move(chain));
         // The cross fits with the first effects alone were not finished.
         for (std::size_t k = 1; k < chain.choices.size(); ++k) selection.steps.push_back(chain.fitted);
     }
