@@ -4,6 +4,7 @@
 #include "core/input_error.h"
 #include "gap/accused.h"
 #include "gap/fit/gap_size.h"
+#include "gap/notes.h"
 #include "gap/parameters.h"
 #include "gap/proposal.h"
 #include "gap/residuals/accusation.h"
@@ -74,19 +75,26 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
     return found;
 }
 
-std::vector<TriedEffect> tried_effects(const Evidence& evidence, const Selection& selection) {
+/// @param found  the effects that are named
+std::vector<TriedEffect> tried_effects(const Evidence& evidence, const Selection& selection,
+                                       const std::vector<FoundEffect>& found) {
     const CrossFit& nothing = selection.steps.front();
     const std::vector<double> weights = weights_of_trials(evidence, selection.alone, nothing);
     std::vector<TriedEffect> tried;
     for (std::size_t k = 0; k < selection.alone.size(); ++k) {
         const Trial& trial = selection.alone[k];
-        tried.push_back(
-            {std::string(trial.candidate->effect->name), std::string(trial.candidate->effect->block),
-             weights[k],
-             trial.fitted.mean_squares.empty()
-                 ? 0.0
-                 : total_gap(signal_gaps(evidence, nothing.mean_squares, trial.fitted.mean_squares))
-                       .removed()});
+        TriedEffect effect{std::string(trial.candidate->effect->name),
+                           std::string(trial.candidate->effect->block), 0.0, 0.0};
+        const auto named = std::ranges::find(found, effect.effect, &FoundEffect::effect);
+        if (!trial.fitted.mean_squares.empty()) {
+            const TotalGap gap =
+                total_gap(signal_gaps(evidence, nothing.mean_squares, trial.fitted.mean_squares));
+            effect.gap_removed = gap.removed();
+            effect.probability =
+                calibrated_probability(support_alone(evidence, trial, nothing, weights[k], gap));
+        }
+        if (named != found.end()) effect.probability = named->probability;
+        tried.push_back(std::move(effect));
     }
     return tried;
 }
@@ -115,17 +123,14 @@ std::vector<BlockProbability> blocks_of(const Selection& selection, const std::v
         const Choice& choice = selection.choices[c];
         const std::string block_of_class = likeliest_block(choice);
         std::map<std::string, double> here;
-        double named = 0.0;
         for (std::size_t k = 0; k < choice.alternatives.size(); ++k) {
             const Candidate& candidate = *choice.alternatives[k].candidate;
             const double weight = weights[c].of_alternatives[k];
-            if (candidate.class_name == choice.candidate->class_name)
-                named += weight;
-            else
-                here[std::string(candidate.effect->block)] += weight;
+            const bool is_of_class = candidate.class_name == choice.candidate->class_name;
+            here[is_of_class ? block_of_class : std::string(candidate.effect->block)] += weight;
         }
-        here[block_of_class] += named;
-        const double all = named > 0.0 ? found[c].probability / named : 0.0;
+        const double weight_of_name = found[c].support.weight;
+        const double all = weight_of_name > 0.0 ? found[c].probability / weight_of_name : 0.0;
         for (const auto& [block, weight] : here) accuse(where, block, std::min(1.0, all * weight));
     }
     std::erase_if(where, [](const BlockProbability& block) { return block.probability <= 1e-4; });
@@ -176,6 +181,10 @@ Verdict verdict_of(const Selection& selection, bool something_is_left) {
     return something_is_left ? Verdict::partly_explained : Verdict::explained;
 }
 
+bool is_gap_left(Verdict verdict) {
+    return verdict == Verdict::partly_explained || verdict == Verdict::unexplained;
+}
+
 std::vector<SignalGap> gaps_of(const Evidence& evidence, const Selection& selection) {
     return signal_gaps(evidence, selection.steps.front().mean_squares, selection.steps.back().mean_squares);
 }
@@ -193,7 +202,7 @@ void say_what_is_named(const Evidence& evidence, const Selection& selection, con
     diagnosis.gap = total_gap(diagnosis.signals);
     diagnosis.effects =
         found_effects(evidence, selection, supports(evidence, selection, weights, left, whole), fitted);
-    diagnosis.candidates = tried_effects(evidence, selection);
+    diagnosis.candidates = tried_effects(evidence, selection, diagnosis.effects);
     diagnosis.where = blocks_of(selection, weights, diagnosis.effects);
 }
 
@@ -226,12 +235,13 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
     const std::optional<Remainder> left = remainder_of(evidence, explained, tail);
     const Fit fitted = fit_to_all(evidence, explained);
     std::optional<Remainder> whole;
+    SignalFlags off = signals_left(evidence, explained);
+    if (left) off[index_of(*left->signal)] = true;
     const bool is_view_named = std::ranges::any_of(selection.choices, [](const Choice& choice) {
         return stage_of(choice.candidate->effect->block) == Stage::camera;
     });
     if (is_view_named) whole = remainder_of(evidence, selection.steps.front(), tail);
-    say_what_is_named(evidence, selection, fitted, left ? only(*left->signal) : SignalFlags{}, whole,
-                      diagnosis);
+    say_what_is_named(evidence, selection, fitted, off, whole, diagnosis);
     diagnosis.unexplained =
         options.matters == SignalLimits{} ? left : remainder_of(evidence, explained, tail, options.matters);
     if (are_credible(diagnosis.effects) || selection.choices.empty())
@@ -261,15 +271,18 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
 }
 
 /// The same without another prediction: values as one half gives them, uncertain by how far the other one is
-/// from it.
+/// from it, or by nobody knows how much if that one was not fitted.
 Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, const SignalLimits& matters) {
     Diagnosis diagnosis;
     const Hypothesis& hypothesis = selection.steps.back().of_half[0];
     Eigen::Index parameters = 0;
     for (const plant::EffectSetting& setting : hypothesis)
         parameters += static_cast<Eigen::Index>(setting.values.size());
-    const Fit fitted{
-        .hypothesis = hypothesis, .loss = 0.0, .covariance = Eigen::MatrixXd::Zero(parameters, parameters)};
+    const double variance =
+        selection.steps.back().is_of_one_half ? std::numeric_limits<double>::quiet_NaN() : 0.0;
+    const Fit fitted{.hypothesis = hypothesis,
+                     .loss = 0.0,
+                     .covariance = Eigen::MatrixXd::Constant(parameters, parameters, variance)};
     diagnosis.signals = gaps_of(evidence, selection);
     SignalFlags left{};
     bool matters_something = false;
@@ -281,19 +294,6 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
     say_what_is_named(evidence, selection, fitted, left, {}, diagnosis);
     diagnosis.verdict = verdict_of(selection, matters_something);
     return diagnosis;
-}
-
-/// Signals whose discrepancy is no gap by what the user says.
-void add_what_does_not_matter(const SignalLimits& matters, Diagnosis& diagnosis) {
-    for (const SignalGap& signal : diagnosis.signals) {
-        const double limit = matters[index_of(signal.signal)];
-        if (limit <= 0.0 || !is_left(signal) || signal.discrepancy > limit) continue;
-        diagnosis.notes.push_back(fmt::format(
-            "{}: {:.3g} {} r.m.s. remain that no effect explains, not more than the {:.3g} {} that "
-            "matter",
-            name_of(signal.signal), signal.discrepancy, unit_of(signal.signal), limit,
-            unit_of(signal.signal)));
-    }
 }
 
 }  // namespace
@@ -320,7 +320,11 @@ Diagnosis diagnose(const Evidence& evidence, const DiagnosisOptions& options) {
         if (of_equation != Ended::finished) ended = of_equation;
     }
     diagnosis.ended = ended;
-    add_what_does_not_matter(options.matters, diagnosis);
+    if (!diagnosis.unexplained && is_gap_left(diagnosis.verdict)) {
+        diagnosis.unexplained = remainder_at_sight(diagnosis.signals, options.matters);
+        if (diagnosis.unexplained) accuse_what_is_left(judged, {}, diagnosis);
+    }
+    add_notes(evidence, options.matters, diagnosis);
     return diagnosis;
 }
 

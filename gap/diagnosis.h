@@ -64,8 +64,7 @@ struct Support {
     double halves_apart = 0.0;
     /// Whether a size is at a bound, or a shape at the largest value that is tried.
     bool is_at_bound = false;
-    /// Whether residual analysis (gap/residuals/) finds something left in a signal that determines the
-    /// effect.
+    /// Whether a signal that determines the effect stays off its floor.
     bool leaves_something = false;
     /// Of an effect of the camera or what it sees: whether residual analysis without names finds that the
     /// whole gap depends on one quantity alone, which accuses a block of these that is not named.

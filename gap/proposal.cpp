@@ -30,11 +30,13 @@ class Proposals {
     Proposals(const Evidence& evidence, const Selection& selection, const DiagnosisOptions& options,
               bool are_names_credible)
         : evidence_(evidence),
-          tail_(options.selection.search.tail),
+          options_(options),
           are_names_credible_(are_names_credible),
-          named_{selection.steps.back(), remainder(selection.steps.back(), options)},
-          nothing_{selection.steps.front(),
-                   selection.choices.empty() ? named_.left : remainder(selection.steps.front(), options)} {}
+          named_{selection.steps.back(), remainder(selection.steps.back())},
+          nothing_{selection.steps.front(), selection.choices.empty() ? named_.left : std::nullopt} {}
+
+    /// Looks for what is left where nothing is named; to be called before an equation may replace names.
+    void look_without_names() { nothing_.left = remainder(nothing_.explained); }
 
     const std::optional<Remainder>& left_by_nothing() const { return nothing_.left; }
     const std::optional<Remainder>& left_by_names() const { return named_.left; }
@@ -79,8 +81,8 @@ class Proposals {
         return total_gap(gaps).after < least_floors;
     }
 
-    std::optional<Remainder> remainder(const CrossFit& explained, const DiagnosisOptions& options) const {
-        return remainder_of(evidence_, explained, options.selection.search.tail, options.matters);
+    std::optional<Remainder> remainder(const CrossFit& explained) const {
+        return remainder_of(evidence_, explained, options_.selection.search.tail, options_.matters);
     }
 
     std::optional<ProposedEquation> of(const Base& base, const std::optional<Rival>& rival) const {
@@ -89,12 +91,12 @@ class Proposals {
             return effect.name.starts_with("unnamed_");
         };
         const auto unnamed = std::ranges::count_if(evidence_.rig().effects, is_unnamed);
-        return equation_of(evidence_, base.explained, *base.left, 1 + static_cast<int>(unnamed), tail_,
-                           rival);
+        return equation_of(evidence_, base.explained, *base.left, 1 + static_cast<int>(unnamed),
+                           options_.selection.search.tail, rival);
     }
 
     const Evidence& evidence_;
-    double tail_;
+    const DiagnosisOptions& options_;
     bool are_names_credible_;
     Base named_, nothing_;  ///< the same where nothing is named
 };
@@ -119,10 +121,13 @@ void take_values(const ProposedEquation& beside, Diagnosis& diagnosis) {
     diagnosis.hypothesis.assign(together.begin(), std::prev(together.end()));
 }
 
-std::optional<ProposedEquation> equation_for(const Proposals& proposals, Diagnosis& diagnosis) {
+/// @param diagnosis  also says what is left, if it did not yet
+std::optional<ProposedEquation> equation_for(Proposals& proposals, Diagnosis& diagnosis) {
     std::optional<Remainder>& left = diagnosis.unexplained;
-    if (!left) left = proposals.left_by_names() ? proposals.left_by_names() : proposals.left_by_nothing();
+    if (!left) left = proposals.left_by_names();
     if (diagnosis.effects.empty()) return proposals.beside_names();
+    proposals.look_without_names();
+    if (!left) left = proposals.left_by_nothing();
     std::optional<ProposedEquation> likelier = proposals.beside_or_in_place_of_names();
     if (!likelier) return {};
     if (likelier->equation.in_place_of_names) {
@@ -144,7 +149,7 @@ Ended propose_equation(const Evidence& evidence, const Selection& selection, con
     evidence.budget()->prolong(options.equation_s);
     if (options.selection.search.tell) options.selection.search.tell("equation for what is left");
     try {
-        const Proposals proposals(evidence, selection, options, are_credible(diagnosis.effects));
+        Proposals proposals(evidence, selection, options, are_credible(diagnosis.effects));
         if (auto proposed = equation_for(proposals, diagnosis))
             diagnosis.unexplained->equation = std::move(proposed->equation);
     } catch (const BudgetEnded& end) {

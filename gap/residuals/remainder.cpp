@@ -132,6 +132,28 @@ Dependences dependences(const Evidence& evidence, Signal signal, const Errors& e
     return {};
 }
 
+/// The beginning of a remainder's text.
+std::string what_remains(const SignalGap& gap, const Pattern& pattern) {
+    return fmt::format("{}: {:.3g} {} r.m.s. ({:.3g} floors) remain that no effect explains; ",
+                       name_of(gap.signal), gap.after, unit_of(gap.signal),
+                       pattern.floors[index_of(gap.signal)]);
+}
+
+std::vector<SignalGap> gaps_under(const Evidence& evidence, const CrossFit& explained) {
+    return signal_gaps(evidence, explained.mean_squares, explained.mean_squares);
+}
+
+/// Whether a signal is off its floor, but for tags that only show how wrong the carriage's model is.
+bool is_off(const Pattern& pattern, const SignalGap& gap) {
+    return pattern.floors[index_of(gap.signal)] >= least_floors &&
+           !(gap.signal == Signal::tag && tags_are_innocent(pattern));
+}
+
+bool does_matter(const SignalGap& gap, const SignalLimits& matters) {
+    const double limit = matters[index_of(gap.signal)];
+    return limit <= 0.0 || gap.discrepancy > limit;
+}
+
 Remainder remainder_of_signal(const SignalGap& gap, const Pattern& pattern, const Dependences& found) {
     const Signal signal = gap.signal;
     const auto first =
@@ -148,12 +170,10 @@ Remainder remainder_of_signal(const SignalGap& gap, const Pattern& pattern, cons
         if (std::ranges::find(remainder.depends_on, name) == remainder.depends_on.end())
             remainder.depends_on.push_back(std::move(name));
     }
-    remainder.text =
-        fmt::format("{}: {:.3g} {} r.m.s. ({:.3g} floors) remain that no effect explains; {}",
-                    name_of(signal), gap.after, unit_of(signal), pattern.floors[index_of(signal)],
-                    remainder.depends_on.empty()
-                        ? std::string("nothing was found that they depend on")
-                        : fmt::format("they depend on {}", fmt::join(remainder.depends_on, ", ")));
+    remainder.text = what_remains(gap, pattern) +
+                     (remainder.depends_on.empty()
+                          ? std::string("nothing was found that they depend on")
+                          : fmt::format("they depend on {}", fmt::join(remainder.depends_on, ", ")));
     return remainder;
 }
 
@@ -163,16 +183,14 @@ std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& 
                                       const SignalLimits& matters) {
     const std::vector<std::uint8_t> half = halves(evidence);
     const Errors errors = held_out_errors(evidence, explained, half);
-    std::vector<SignalGap> gaps = signal_gaps(evidence, explained.mean_squares, explained.mean_squares);
+    std::vector<SignalGap> gaps = gaps_under(evidence, explained);
     const Pattern pattern = pattern_of(evidence, gaps, errors);
     const auto floors = [&](const SignalGap& gap) { return pattern.floors[index_of(gap.signal)]; };
     const std::optional<Signal> suspect = false_sensor(pattern);
     std::ranges::sort(gaps, std::greater{},
                       [&](const SignalGap& gap) { return std::pair(gap.signal == suspect, floors(gap)); });
     for (const SignalGap& gap : gaps) {
-        const double limit = matters[index_of(gap.signal)];
-        if (floors(gap) < least_floors || (limit > 0.0 && gap.discrepancy <= limit)) continue;
-        if (gap.signal == Signal::tag && tags_are_innocent(pattern)) continue;
+        if (!is_off(pattern, gap) || !does_matter(gap, matters)) continue;
         // Where a gap is beyond doubt, what it likely depends on says more than nothing.
         const bool is_clear = floors(gap) >= clear_floors;
         const std::array tails{tail, likely * tail};
@@ -182,6 +200,32 @@ std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& 
         return remainder_of_signal(gap, pattern, found);
     }
     return {};
+}
+
+SignalFlags signals_left(const Evidence& evidence, const CrossFit& explained) {
+    const std::vector<SignalGap> gaps = gaps_under(evidence, explained);
+    const Pattern pattern =
+        pattern_of(evidence, gaps, held_out_errors(evidence, explained, halves(evidence)));
+    SignalFlags left{};
+    for (const SignalGap& gap : gaps) left[index_of(gap.signal)] = is_off(pattern, gap);
+    return left;
+}
+
+std::optional<Remainder> remainder_at_sight(std::span<const SignalGap> gaps, const SignalLimits& matters) {
+    Pattern pattern;
+    const SignalGap* furthest = nullptr;
+    for (const SignalGap& gap : gaps) {
+        double& floors = pattern.floors[index_of(gap.signal)];
+        floors = gap.after / gap.floor;
+        const bool is_further = furthest == nullptr || floors > pattern.floors[index_of(furthest->signal)];
+        if (is_left(gap) && does_matter(gap, matters) && is_further) furthest = &gap;
+    }
+    if (furthest == nullptr) return {};
+    const std::string what = what_remains(*furthest, pattern);
+    return Remainder{.block = std::string(accused_block(pattern, furthest->signal, {})),
+                     .depends_on = {},
+                     .text = what + "there was no time to look for what they depend on",
+                     .signal = furthest->signal};
 }
 
 }  // namespace fidservo::gap

@@ -5,6 +5,7 @@
 #include "gap/search/selection.h"
 
 #include <optional>
+#include <span>
 
 namespace fidservo::gap {
 
@@ -14,5 +15,14 @@ namespace fidservo::gap {
 /// @param matters  signals whose discrepancy is no larger are ignored
 std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail,
                                       const SignalLimits& matters = {});
+
+/// Signals that are off their floors under an explanation, but for tags that only show how wrong the
+/// carriage's model is.
+SignalFlags signals_left(const Evidence& evidence, const CrossFit& explained);
+
+/// Where there is no time to ask what errors depend on: the signal that is furthest off, in floors. Empty
+/// where none is off, or none that matters.
+std::optional<Remainder> remainder_at_sight(std::span<const SignalGap> gaps,
+                                            const SignalLimits& matters = {});
 
 }  // namespace fidservo::gap

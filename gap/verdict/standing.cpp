@@ -52,6 +52,28 @@ double halves_apart(const Candidate& candidate, const plant::EffectSetting& one,
     return size > 0.0 ? std::sqrt(difference / size) : 0.0;
 }
 
+/// The setting of a candidate's effect in a hypothesis; null where it has none.
+const plant::EffectSetting* setting_of(const Candidate& candidate, const Hypothesis& hypothesis) {
+    const auto found = std::ranges::find(hypothesis, candidate.effect, &plant::EffectSetting::effect);
+    return found == hypothesis.end() ? nullptr : &*found;
+}
+
+/// The same in a cross fit, of which the second half may not have been fitted.
+double halves_apart(const Candidate& candidate, const CrossFit& fitted) {
+    constexpr double is_not_shown = 1.0;  // that the halves agree
+    const plant::EffectSetting* const one = setting_of(candidate, fitted.of_half[0]);
+    const plant::EffectSetting* const other = setting_of(candidate, fitted.of_half[1]);
+    const bool are_two = one != nullptr && other != nullptr && !fitted.is_of_one_half;
+    return are_two ? halves_apart(candidate, *one, *other) : is_not_shown;
+}
+
+bool is_at_bound(const Candidate& candidate, const CrossFit& fitted) {
+    return std::ranges::any_of(fitted.of_half, [&](const Hypothesis& half) {
+        const plant::EffectSetting* const setting = setting_of(candidate, half);
+        return setting != nullptr && is_at_bound(candidate, *setting);
+    });
+}
+
 /// What is left, and what would be without one of them, in that of its signals in which it matters most.
 struct OwnFloors {
     double left = 1.0, without = 1.0;
@@ -118,7 +140,6 @@ double calibrated_probability(const Support& support) {
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
                               const std::vector<ChoiceWeights>& weights, const SignalFlags& left,
                               const std::optional<Remainder>& whole) {
-    constexpr double is_not_shown = 1.0;  // that the halves agree
     const std::vector<Window>& windows = evidence.windows();
     const CrossFit& explained = selection.steps.back();
     const TotalGap gap =
@@ -139,17 +160,34 @@ std::vector<Support> supports(const Evidence& evidence, const Selection& selecti
                        .gap_after = gap.after,
                        .gap_left = 1.0 - gap.removed(),
                        .names = static_cast<double>(selection.choices.size()),
-                       .halves_apart = explained.is_of_one_half
-                                           ? is_not_shown
-                                           : halves_apart(*choice.candidate, explained.of_half[0][k],
-                                                          explained.of_half[1][k]),
-                       .is_at_bound = std::ranges::any_of(
-                           explained.of_half,
-                           [&](const Hypothesis& half) { return is_at_bound(*choice.candidate, half[k]); }),
+                       .halves_apart = halves_apart(*choice.candidate, explained),
+                       .is_at_bound = is_at_bound(*choice.candidate, explained),
                        .leaves_something = meet(left, teachers),
                        .is_contested = is_contested(whole, selection, choice)});
     }
     return all;
+}
+
+Support support_alone(const Evidence& evidence, const Trial& trial, const CrossFit& nothing, double weight,
+                      const TotalGap& gap) {
+    const CrossFit& fitted = trial.fitted;
+    const SignalFlags teachers = teachers_of(*trial.candidate->effect);
+    const OwnFloors own = own_floors(typical_floors(evidence.windows(), fitted.mean_squares),
+                                     typical_floors(evidence.windows(), nothing.mean_squares), teachers);
+    SignalFlags left{};
+    for (const SignalGap& signal : signal_gaps(evidence, nothing.mean_squares, fitted.mean_squares))
+        left[index_of(signal.signal)] = is_left(signal);
+    return {.weight = weight,
+            .left_floors = own.left,
+            .without_floors = own.without,
+            .gap_alone = gap.before,
+            .gap_after = gap.after,
+            .gap_left = 1.0 - gap.removed(),
+            .names = 1.0,
+            .halves_apart = halves_apart(*trial.candidate, fitted),
+            .is_at_bound = is_at_bound(*trial.candidate, fitted),
+            .leaves_something = meet(left, teachers),
+            .is_contested = false};
 }
 
 }  // namespace fidservo::gap

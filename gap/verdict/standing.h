@@ -34,7 +34,7 @@ using Features = std::array<double, feature_names.size()>;
 ///   log_gap_left   -log of the fraction of the total gap that remains, 1e-4 at least
 ///   log_names      log of the number of named effects: many small ones less often stand in for another one
 ///   halves_agree   -log of the relative difference of its size between the halves, 1e-3 at least
-///   leaves_nothing  1 if residual analysis finds nothing left in the signals that determine it, else 0
+///   leaves_nothing  1 if the signals that determine it come to their floors, else 0
 Features features_of(const Support& support);
 
 /// The probability by a regression with this offset and these coefficients.
@@ -51,10 +51,16 @@ bool has_a_rival(const Support& support);
 double calibrated_probability(const Support& support);
 
 /// The evidence for each choice of a selection.
-/// @param left   signals in which residual analysis finds something left
+/// @param left   signals that are off their floors under the whole explanation
 /// @param whole  what the gap depends on where nothing is named; empty where that is unknown
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
                               const std::vector<ChoiceWeights>& weights, const SignalFlags& left,
                               const std::optional<Remainder>& whole);
+
+/// The evidence for an effect that was tried alone, as if it were the only name.
+/// @param weight  among all that were tried alone
+/// @param gap     before and after it
+Support support_alone(const Evidence& evidence, const Trial& trial, const CrossFit& nothing, double weight,
+                      const TotalGap& gap);
 
 }  // namespace fidservo::gap
