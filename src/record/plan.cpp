@@ -3,7 +3,9 @@
 
 #include "core/input_error.h"
 #include "core/rig.h"
+#include "src/files/disk/sha256.h"
 #include "src/files/recording/description.h"
+#include "src/files/rig/rig_file.h"
 #include "src/files/rig/stage_keys.h"
 #include "src/record/foresight.h"
 #include "src/record/start.h"
@@ -12,6 +14,11 @@
 #include "src/session/stage_choice.h"
 #include "src/simulation/planned_experiments.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -30,6 +37,34 @@ std::optional<double> wire_limit_degC(const SessionOptions& options, const Rig& 
     return watchdog_params(rig, load_stage_keys(options.rig_file).watchdog).wire_limit_degC;
 }
 
+/// Whether an experiment is a kind whose excitation is drawn, not a file.
+bool is_drawn(const std::string& experiment) {
+    return std::ranges::find(experiment_kinds(), experiment) != experiment_kinds().end();
+}
+
+/// The SHA-256 of the rig's files, of the seed and of the experiment's commands, tick by tick.
+std::string request_of(const SessionOptions& session, const Rig& rig, const Experiment& experiment) {
+    std::string asked = fmt::format("{} ", session.seed);
+    for (const fs::path& file : files_of_rig(session.rig_file)) asked += sha256_of_file(file);
+    const auto add = [&](double value) {
+        const auto bytes = std::bit_cast<std::array<char, sizeof value>>(value);
+        asked.append(bytes.data(), bytes.size());
+    };
+    add(experiment.carriage_mm);
+    const auto ticks = static_cast<std::int64_t>(std::llround(experiment.duration_s / rig.tick_s));
+    for (std::int64_t tick = 0; tick < ticks; ++tick)
+        for (const Course* course : {&experiment.macro_setpoint_mm, &experiment.macro_V,
+                                     &experiment.micro_setpoint_mm, &experiment.micro_V})
+            add(value_at(*course, static_cast<double>(tick) * rig.tick_s));
+    return sha256(asked);
+}
+
+PlannedRun planned(const ExperimentOptions& options, const Rig& rig, const std::string& name,
+                   const fs::path& folder, Experiment experiment) {
+    std::string request = request_of(options.session, rig, experiment);
+    return {name, folder, std::move(experiment), std::move(request)};
+}
+
 /// What each of a campaign's experiments commands, but for those that the rig cannot do.
 RecordPlan campaign(const ExperimentOptions& options, const Rig& rig, std::optional<double> limit_degC) {
     RecordPlan plan;
@@ -37,7 +72,7 @@ RecordPlan campaign(const ExperimentOptions& options, const Rig& rig, std::optio
         if (const auto why = why_not(rig, experiment, limit_degC))
             plan.left_out.push_back(fmt::format("{}: {}", name, *why));
         else
-            plan.runs.push_back({name, options.out / name, std::move(experiment)});
+            plan.runs.push_back(planned(options, rig, name, options.out / name, std::move(experiment)));
     if (plan.runs.empty())
         throw InputError(fmt::format("campaign: the rig {} can do none of it: {}", rig.name,
                                      fmt::join(plan.left_out, "; ")));
@@ -65,8 +100,9 @@ RecordPlan plan_recordings(const ExperimentOptions& options, const Rig& rig, con
     if (is_campaign(options)) return campaign(options, rig, limit_degC);
     auto [name, experiment] = planned_experiment(options.experiment, rig, options.session.seed);
     if (const auto why = why_not(rig, experiment, limit_degC))
-        throw InputError(fmt::format("{}: the rig {} cannot do it: {}", options.experiment, rig.name, *why));
-    return {{{std::move(name), options.out, std::move(experiment)}}, {}};
+        throw InputError(fmt::format("{}: the rig {} cannot do it: {}{}", options.experiment, rig.name, *why,
+                                     is_drawn(options.experiment) ? "; another --seed draws another" : ""));
+    return {{planned(options, rig, name, options.out, std::move(experiment))}, {}};
 }
 
 std::vector<PlannedRun> missing_runs(const RecordPlan& plan) {
@@ -79,6 +115,12 @@ std::vector<PlannedRun> missing_runs(const RecordPlan& plan) {
             if (there.experiment != run.experiment.kind)
                 throw InputError(fmt::format("{}: experiment: {}: is not what is to be recorded, {}",
                                              file.string(), there.experiment, run.experiment.kind));
+            const std::string begun = read_origin(file).request_sha256;
+            if (!begun.empty() && begun != run.request_sha256)
+                throw InputError(
+                    fmt::format("{}: request_sha256: the recording was begun with another rig file, "
+                                "other commands or another seed; allowed: those, or another --out",
+                                file.string()));
         }
         if (there.is_unfinished) missing.push_back(run);
     }

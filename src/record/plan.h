@@ -28,6 +28,7 @@ struct PlannedRun {
     std::string name;
     std::filesystem::path folder;
     Experiment experiment;
+    std::string request_sha256;  ///< of the rig's files, the seed and all commands
 };
 
 struct RecordPlan {
@@ -41,7 +42,7 @@ struct RecordPlan {
 RecordPlan plan_recordings(const ExperimentOptions& options, const Rig& rig, const Plate& plate);
 
 /// The recordings of a plan that do not exist or are unfinished. Throws InputError if an existing recording
-/// is of another experiment.
+/// is of another experiment, or was asked for with another rig file, other commands or another seed.
 std::vector<PlannedRun> missing_runs(const RecordPlan& plan);
 
 /// Whether an experiment may heat the wire.

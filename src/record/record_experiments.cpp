@@ -69,6 +69,7 @@ RecordingOptions recording_of(const PlannedRun& run, bool frames) {
     recording.experiment = run.experiment.kind;
     recording.controllers = controllers_of(run.experiment);
     recording.frames = frames;
+    recording.origin.request_sha256 = run.request_sha256;
     return recording;
 }
 

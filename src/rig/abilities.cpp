@@ -2,9 +2,14 @@
 #include "src/rig/abilities.h"
 
 #include "core/rig.h"
+#include "src/record/foresight.h"
 #include "src/simulation/experiments.h"
+#include "src/simulation/planned_experiments.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,6 +30,19 @@ std::vector<std::string> missing_for_motion(const Rig& rig, bool is_plate_elsewh
     return missing;
 }
 
+/// Why an experiment of a kind would be refused, by simulation; empty if one of a few draws would not.
+std::string why_not_recorded(const Rig& rig, std::string_view kind) {
+    constexpr std::uint64_t seeds = 4;
+    std::string reason;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        const PlannedExperiment planned = planned_experiment(std::string(kind), rig, seed);
+        const auto why = why_not(rig, planned.experiment, std::nullopt);
+        if (!why) return {};
+        reason = *why;
+    }
+    return reason;
+}
+
 std::string listed(const std::vector<std::string>& keys) {
     return fmt::format("{}", fmt::join(keys, ", "));
 }
@@ -35,27 +53,29 @@ std::vector<Ability> abilities_of(const Rig& rig, bool has_board) {
     const std::vector<std::string> for_motion = missing_for_motion(rig, false);
     const std::string motion = listed(for_motion);
     const std::string micro = rig.micro ? "" : "micro";
-    std::vector<Ability> abilities{{"inspect", listed(missing_for_motion(rig, true))},
-                                   {"goto", motion},
-                                   {"home", motion},
-                                   {"record, at rest", motion}};
+    std::vector<Ability> abilities{{"inspect", listed(missing_for_motion(rig, true)), {}},
+                                   {"goto", motion, {}},
+                                   {"home", motion, {}},
+                                   {"record, at rest", motion, {}}};
     for (const std::string_view kind : experiment_kinds()) {
         std::vector<std::string> missing = for_motion;
         if (std::string key = missing_for(kind, rig); !key.empty() && std::ranges::count(missing, key) == 0)
             missing.push_back(std::move(key));
-        abilities.push_back({fmt::format("record {}", kind), listed(missing)});
+        Ability ability{fmt::format("record {}", kind), listed(missing), {}};
+        if (missing.empty()) ability.reason = why_not_recorded(rig, kind);
+        abilities.push_back(std::move(ability));
     }
     for (const std::string_view kind : experiment_kinds())
-        abilities.push_back({fmt::format("simulate {}", kind), missing_for(kind, rig)});
-    abilities.insert(abilities.end(), {{"calibrate stage", motion},
-                                       {"calibrate camera", ""},
-                                       {"calibrate hall", micro},
-                                       {"identify macro", ""},
-                                       {"identify hysteresis", micro},
-                                       {"identify heater", micro},
-                                       {"replay", ""},
-                                       {"diagnose", ""},
-                                       {"--stage comedi:NODE", has_board ? "" : "stage.comedi"}});
+        abilities.push_back({fmt::format("simulate {}", kind), missing_for(kind, rig), {}});
+    abilities.insert(abilities.end(), {{"calibrate stage", motion, {}},
+                                       {"calibrate camera", "", {}},
+                                       {"calibrate hall", micro, {}},
+                                       {"identify macro", "", {}},
+                                       {"identify hysteresis", micro, {}},
+                                       {"identify heater", micro, {}},
+                                       {"replay", "", {}},
+                                       {"diagnose", "", {}},
+                                       {"--stage comedi:NODE", has_board ? "" : "stage.comedi", {}}});
     return abilities;
 }
 

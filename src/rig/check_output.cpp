@@ -10,10 +10,12 @@ namespace fidservo {
 
 std::string describe(const std::vector<Ability>& abilities, const std::vector<Finding>& findings) {
     std::string text;
-    for (const Ability& ability : abilities)
-        text += ability.missing.empty()
-                    ? fmt::format("{:<24} yes\n", ability.command)
-                    : fmt::format("{:<24} no: {}: missing\n", ability.command, ability.missing);
+    for (const Ability& ability : abilities) {
+        const std::string answer = ability.is_possible()     ? "yes"
+                                   : ability.missing.empty() ? "no: " + ability.reason
+                                                             : "no: " + ability.missing + ": missing";
+        text += fmt::format("{:<24} {}\n", ability.command, answer);
+    }
     for (const Finding& finding : findings)
         text +=
             fmt::format("{}: {}: {}; usual: {}\n", finding.key, finding.value, finding.why, finding.usual);
@@ -30,8 +32,9 @@ void write_rig_check_json(const std::filesystem::path& file, const std::string& 
                                 {"findings", nlohmann::json::array()}};
     for (const Ability& ability : abilities)
         json["abilities"].push_back({{"command", ability.command},
-                                     {"possible", ability.missing.empty()},
-                                     {"missing", ability.missing}});
+                                     {"possible", ability.is_possible()},
+                                     {"missing", ability.missing},
+                                     {"reason", ability.reason}});
     for (const Finding& finding : findings)
         json["findings"].push_back(
             {{"key", finding.key}, {"value", finding.value}, {"why", finding.why}, {"usual", finding.usual}});

@@ -140,7 +140,9 @@ void Session::record_to(const std::filesystem::path& folder, RecordingOptions re
     recording.rig = rig.name;
     recording.tick_s = rig.tick_s;
     recording.encoder_zero = impl_->pilot.encoder_zero();
+    const std::string request_sha256 = std::move(recording.origin.request_sha256);
     recording.origin = impl_->origin;
+    recording.origin.request_sha256 = request_sha256;
     if (impl_->states_time) recording.origin.recorded_at = utc_now();
     recording.columns = columns_of(rig);
     recording.camera = rig.camera;

@@ -72,6 +72,11 @@ TEST_F(SlowRecordProgram, KilledAndResumed_TheRecordingIsWholeAndNothingIsLost) 
     const ProgramRun again = record("--resume");
     EXPECT_EQ(again.exit_code, 0);
     EXPECT_NE(again.out.find("nothing to do"), std::string::npos) << again.out;
+    folder_.write("nudge.yaml",
+                  std::string(short_experiment).replace(std::string(short_experiment).find("3.6"), 3, "3.5"));
+    const ProgramRun other = record("--resume");
+    EXPECT_EQ(other.exit_code, 2) << "the experiment's file says something else now";
+    EXPECT_NE(other.err.find("request_sha256"), std::string::npos) << other.err;
 }
 
 TEST_F(SlowRecordProgram, CtrlC_LeavesAnUnfinishedRecordingThatSaysWhy) {

@@ -210,7 +210,8 @@ std::string missing(const Rig& rig, const std::string& command) {
 
 TEST(RigAbilities, PartsThatARigLacks_AreNamed) {
     Rig rig = reference_rig();
-    for (const Ability& ability : abilities_of(rig, true)) EXPECT_EQ(ability.missing, "") << ability.command;
+    for (const Ability& ability : abilities_of(rig, true))
+        EXPECT_TRUE(ability.is_possible()) << ability.command;
     EXPECT_EQ(missing(rig, "--stage comedi:NODE"), "stage.comedi");
     rig.fiducials.reset();
     EXPECT_EQ(missing(rig, "goto"), "fiducials");
@@ -224,6 +225,20 @@ TEST(RigAbilities, PartsThatARigLacks_AreNamed) {
     EXPECT_EQ(missing(rig, "identify macro"), "");
     rig.macro.pd.reset();
     EXPECT_EQ(missing(rig, "simulate macro-square"), "macro.pd");
+}
+
+TEST(RigAbilities, ExperimentForWhichTheTravelIsTooShort_IsNoneToBeRecorded) {
+    Rig rig = reference_rig();
+    rig.macro.high_mm = 60.0;
+    const std::vector<Ability> abilities = abilities_of(rig, false);
+    const auto sweep = std::ranges::find(abilities, "record macro-sweep", &Ability::command);
+    ASSERT_NE(sweep, abilities.end());
+    EXPECT_FALSE(sweep->is_possible());
+    EXPECT_EQ(sweep->missing, "");
+    EXPECT_NE(sweep->reason.find("would leave its travel, 0 to 60 mm"), std::string::npos) << sweep->reason;
+    const auto rest = std::ranges::find(abilities, "record rest", &Ability::command);
+    ASSERT_NE(rest, abilities.end());
+    EXPECT_TRUE(rest->is_possible()) << rest->reason;
 }
 
 TEST(RigAbilities, Motions_AreThoseThatPositioningTakes) {

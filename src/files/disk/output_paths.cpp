@@ -27,9 +27,12 @@ void make_output_folder(const std::filesystem::path& folder) {
 
 void set_aside(const std::filesystem::path& path) {
     if (!std::filesystem::exists(path)) return;
+    // A folder's name may hold a dot and yet no extension.
+    const bool has_extension = !std::filesystem::is_directory(path);
+    const std::string stem = (has_extension ? path.stem() : path.filename()).string();
+    const std::string extension = has_extension ? path.extension().string() : "";
     for (int k = 1;; ++k) {
-        const auto other = path.parent_path() / fmt::format("{}.interrupted-{}{}", path.stem().string(), k,
-                                                            path.extension().string());
+        const auto other = path.parent_path() / fmt::format("{}.interrupted-{}{}", stem, k, extension);
         if (std::filesystem::exists(other)) continue;
         std::error_code problem;
         std::filesystem::rename(path, other, problem);

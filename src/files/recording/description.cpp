@@ -129,6 +129,7 @@ std::string description_yaml(const Recording& recording, const RecordingOrigin& 
     emit_if_stated(yaml, "stage", origin.stage);
     emit_if_stated(yaml, "camera", origin.camera);
     emit_if_stated(yaml, "program", origin.program);
+    emit_if_stated(yaml, "request_sha256", origin.request_sha256);
     if (recording.encoder_zero) emit(yaml, *recording.encoder_zero);
     if (recording.controllers) emit(yaml, *recording.controllers);
     yaml << YAML::Key << "finished" << YAML::Value << !recording.is_unfinished;
@@ -140,7 +141,8 @@ std::string description_yaml(const Recording& recording, const RecordingOrigin& 
 RecordingOrigin read_origin(const YamlValue& map) {
     RecordingOrigin origin;
     for (const auto& [key, text] : {std::pair{"stage", &origin.stage}, std::pair{"camera", &origin.camera},
-                                    std::pair{"program", &origin.program}, std::pair{"unit", &origin.unit}})
+                                    std::pair{"program", &origin.program}, std::pair{"unit", &origin.unit},
+                                    std::pair{"request_sha256", &origin.request_sha256}})
         if (const auto value = map.find(key)) *text = value->text();
     if (const auto time = map.find("recorded_at")) {
         origin.recorded_at = time->text();
@@ -169,7 +171,8 @@ void read_statements(const YamlValue& map, Recording& recording) {
 void read_description(const std::filesystem::path& file, Recording& recording) {
     const YamlValue root = YamlValue::load(file);
     root.allow_only({"format", "name", "rig", "tick_s", "experiment", "stage", "camera", "program",
-                     "encoder_zero", "controllers", "finished", "events", "unit", "recorded_at", "labels"});
+                     "encoder_zero", "controllers", "finished", "events", "unit", "recorded_at",
+                     "request_sha256", "labels"});
     root.at("format").one_of({recording_format});
     read_statements(root, recording);
     recording.tick_s = root.at("tick_s").number({0.0, 1.0, true});

@@ -14,11 +14,13 @@ class YamlValue;
 /// How a recording was made: with which devices, of which unit, when; empty: not stated. A diagnosis does not
 /// use it.
 struct RecordingOrigin {
-    std::string stage{};                          ///< sim | comedi:/dev/comedi0
-    std::string camera{};                         ///< sim | v4l2:/dev/video0
-    std::string program{};                        ///< fidservo 0.1.0 (commit)
-    std::string unit{};                           ///< the rig, among several of the same kind
-    std::string recorded_at{};                    ///< when it began, in UTC: 2026-11-02T08:15:00Z
+    std::string stage{};        ///< sim | comedi:/dev/comedi0
+    std::string camera{};       ///< sim | v4l2:/dev/video0
+    std::string program{};      ///< fidservo 0.1.0 (commit)
+    std::string unit{};         ///< the rig, among several of the same kind
+    std::string recorded_at{};  ///< when it began, in UTC: 2026-11-02T08:15:00Z
+    /// SHA-256 of what the recording was asked to be: of the rig's files, the seed and all commands.
+    std::string request_sha256{};
     std::map<std::string, std::string> labels{};  ///< other labels that users give to distinguish recordings
 };
 
