@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Effects that only show in combination with another one.
 #include "gap/diagnose.h"
+#include "tests/effort.h"
 #include "tests/gap/effect_names.h"
 #include "tests/gap/simulated_campaign.h"
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,7 +46,8 @@ TEST(SlowDiagnosis, TwoEffectsThatHideEachOther_AreBothNamed) {
 
 /// Far from its true value a creep speed only increases the loss.
 TEST(SlowDiagnosis, FrictionThatCreeps_IsFoundWithItsCreepSpeed) {
-    for (const std::string name : {"coulomb_friction", "stribeck_friction"}) {
+    constexpr std::array all{"coulomb_friction", "stribeck_friction"};
+    for (const std::string name : std::span(all).first(static_cast<std::size_t>(testing::draws(2, 1)))) {
         const Diagnosis diagnosis = diagnosed({name + ":level_V=0.4,creep_mm_per_s=0.5"},
                                               {"macro-sweep", "macro-pulses", "macro-square"},
                                               {"coulomb_friction", "stribeck_friction", "drive_gain"});
