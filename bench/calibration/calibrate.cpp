@@ -43,6 +43,7 @@ struct Name {
     std::string kind, family;
     gap::Features features;
     bool is_true;
+    bool is_replaced;  ///< by an equation
     double weight = 1.0;
 };
 
@@ -59,6 +60,13 @@ gap::Support support_of(const Json& json, double gap_after) {
             .is_contested = json.at("contested")};
 }
 
+/// Whether an equation in its place is likelier than a name and has taken most of its probability
+/// (gap/proposal.h). Which of the two it is, held-out data decide, not the regression.
+bool is_replaced(const Json& found, const gap::Support& support) {
+    constexpr double most = 0.5;
+    return found.at("probability").get<double>() < most * gap::calibrated_probability(support);
+}
+
 /// Without those that have a rival, with which they share their probability (gap/verdict/standing.h).
 std::vector<Name> names_of(const Json& self_check) {
     std::vector<Name> names;
@@ -66,7 +74,8 @@ std::vector<Name> names_of(const Json& self_check) {
         for (const Json& found : one.at("found")) {
             const gap::Support support = support_of(found.at("support"), one.at("gap").at("after"));
             if (gap::has_a_rival(support)) continue;
-            names.push_back({one.at("kind"), found.at("class"), gap::features_of(support), found.at("true")});
+            names.push_back({one.at("kind"), found.at("class"), gap::features_of(support), found.at("true"),
+                             is_replaced(found, support)});
         }
     return names;
 }
@@ -213,7 +222,8 @@ void calibrate(const std::vector<std::string>& files) {
             fmt::join(self_check.at("options").at("kinds").get<std::vector<std::string>>(), ", "),
             self_check.at("commit").get<std::string>()));
     }
-    weigh(names);
+    weigh(names);  // all, so that the few that remain of a kind do not count for the others
+    std::erase_if(names, std::mem_fn(&Name::is_replaced));
     tell(names, judged_by_others(names));
     const Coefficients all = fitted(names);
     fmt::print(R"(// SPDX-License-Identifier: GPL-3.0-or-later
