@@ -257,8 +257,9 @@ void add_run(Evidence::Parts& parts, std::size_t run) {
     std::optional<PlatformPrediction> platform;
     if (rig.micro) {
         const PlatformModel stage = platform_model(nominal);
-        platform = predicted_readings(stage, *links.platform, nullptr);
-        links.smoothed = smoothed_reading(*links.platform, platform->path_lsb, rig.macro.command_limit_V);
+        const FinerStage finer = finer_stage(nominal);
+        platform = predicted_readings(stage, *links.platform, nullptr, &finer);
+        links.smoothed = smoothed_reading(*links.platform, *platform, rig.macro.command_limit_V);
         links.smoothed->wire_degC = platform->temperature_degC;
     }
     if (shows_tags(recording, rig))

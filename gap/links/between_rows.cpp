@@ -5,6 +5,23 @@
 
 namespace fidservo::gap {
 
+namespace {
+
+/// By how much the model exceeds a straight line between two rows.
+double bend_lsb(const SmoothedReading& reading, const Moment& at) {
+    const std::size_t bends = reading.model_bends_lsb.size() / reading.model_lsb.size();
+    if (bends == 0 || !at.is_tick) return 0.0;
+    const double parts = at.share * static_cast<double>(bends + 1);
+    const auto part = std::min(static_cast<std::size_t>(parts), bends);
+    const auto end_of = [&](std::size_t k) {
+        return k == 0 || k > bends ? 0.0 : reading.model_bends_lsb[at.row * bends + k - 1];
+    };
+    const double share = parts - static_cast<double>(part);
+    return end_of(part) + share * (end_of(part + 1) - end_of(part));
+}
+
+}  // namespace
+
 Moment moment_at(const std::vector<double>& time_s, double tick_s, double at_s) {
     const std::size_t last = time_s.size() - 1;
     if (last == 0 || at_s <= time_s.front()) return {0, 0.0, true};
@@ -46,7 +63,7 @@ double reading_lsb(const SmoothedReading& reading, const Moment& at) {
     const double t = at.share;
     const double straight =
         t == 0.0 ? model[at.row] : model[at.row] + t * (model[at.row + 1] - model[at.row]);
-    return straight + between(reading.reading_lsb, at) - between(model, at);
+    return straight + bend_lsb(reading, at) + between(reading.reading_lsb, at) - between(model, at);
 }
 
 }  // namespace fidservo::gap

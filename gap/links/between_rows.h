@@ -28,9 +28,8 @@ double carriage_mm(const CarriagePath& path, const Moment& at, double tick_s);
 /// Cubic interpolation by four neighbours (Catmull and Rom).
 double between(const std::vector<double>& values, const Moment& at);
 
-/// The Hall reading. The model's part is interpolated linearly: a heater's command that changes at a tick
-/// makes its rate jump there, and only there, up to the wire's time constants of half a second and the
-/// corners of its table. What differs from the model is interpolated cubically.
+/// The Hall reading: the model's as it moves within a tick, and what differs from it by cubic interpolation.
+/// The heater's command makes the model's rate jump at a tick, the corners of the wire's table within one.
 double reading_lsb(const SmoothedReading& reading, const Moment& at);
 
 }  // namespace fidservo::gap

@@ -98,8 +98,9 @@ std::vector<std::size_t> medians(const std::vector<std::size_t>& widths) {
     return found;
 }
 
-void smooth(const PlatformRun& run, const Stretch& piece, std::span<const double> path_lsb,
+void smooth(const PlatformRun& run, const Stretch& piece, const PlatformPrediction& model,
             double command_limit_V, SmoothedReading& found) {
+    const std::vector<double>& path_lsb = model.path_lsb;
     const std::size_t rows = piece.rows();
     std::vector<double> residual(rows), drive(rows);
     for (std::size_t i = 0; i < rows; ++i) {
@@ -123,6 +124,14 @@ void smooth(const PlatformRun& run, const Stretch& piece, std::span<const double
     }
 }
 
+/// Takes over the model's bends between the rows of a piece.
+void keep_bends(const Stretch& piece, const PlatformPrediction& model, SmoothedReading& found) {
+    const std::size_t each = model.bends_lsb.size() / model.path_lsb.size();
+    const auto at = [&](std::size_t row) { return static_cast<std::ptrdiff_t>(each * row); };
+    std::copy(model.bends_lsb.begin() + at(piece.first), model.bends_lsb.begin() + at(piece.end - 1),
+              found.model_bends_lsb.begin() + at(piece.first));
+}
+
 /// Gives rows without a value that of the row before, and the first rows the first known value.
 void hold(std::vector<double>& values, double none) {
     const auto known = std::ranges::find_if(values, [](double value) { return std::isfinite(value); });
@@ -135,11 +144,14 @@ void hold(std::vector<double>& values, double none) {
 
 }  // namespace
 
-SmoothedReading smoothed_reading(const PlatformRun& run, std::span<const double> path_lsb,
+SmoothedReading smoothed_reading(const PlatformRun& run, const PlatformPrediction& model,
                                  double command_limit_V) {
     const std::vector<double> none(run.hall_adc.size(), std::numeric_limits<double>::quiet_NaN());
-    SmoothedReading found{none, none, none, none, none, {}};
-    for (const Stretch& piece : pieces_of(run)) smooth(run, piece, path_lsb, command_limit_V, found);
+    SmoothedReading found{none, none, std::vector(model.bends_lsb.size(), 0.0), none, none, none, {}};
+    for (const Stretch& piece : pieces_of(run)) {
+        smooth(run, piece, model, command_limit_V, found);
+        keep_bends(piece, model, found);
+    }
     hold(found.reading_lsb, 0.0);
     hold(found.model_lsb, 0.0);
     hold(found.std_lsb, run.floor_lsb);

@@ -13,7 +13,6 @@
 // 1.02.
 #include "gap/links/platform_link.h"
 
-#include <span>
 #include <vector>
 
 namespace fidservo::gap {
@@ -24,6 +23,7 @@ struct SmoothedReading {
     /// What the rig file's model gives; its rate jumps where the heater's command changes, that of the
     /// difference hardly does.
     std::vector<double> model_lsb;
+    std::vector<double> model_bends_lsb;  ///< PlatformPrediction::bends_lsb, an equal number for each row
     std::vector<double> std_lsb;
     std::vector<double> readings;  ///< number of readings to which the row's line is fitted
     /// The (limited) macro command of the row before, smoothed in the same way: the share of it that leaks
@@ -32,9 +32,9 @@ struct SmoothedReading {
     std::vector<double> wire_degC;  ///< by the rig file's model; empty: not known
 };
 
-/// @param path_lsb  the model of the reading, one value for each row
+/// @param model  of the reading: path_lsb and bends_lsb
 /// @param command_limit_V  limit of the macro command
-SmoothedReading smoothed_reading(const PlatformRun& run, std::span<const double> path_lsb,
+SmoothedReading smoothed_reading(const PlatformRun& run, const PlatformPrediction& model,
                                  double command_limit_V);
 
 /// Standard deviation of the change, from one row to another, of the smoothed reading's error. For means over

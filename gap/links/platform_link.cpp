@@ -32,10 +32,16 @@ bool depends_on_state_alone(const plant::MicroStage& stage) {
 
 class Pass {
   public:
-    Pass(const PlatformModel& model, const PlatformRun& run, const CarriagePath* carriage)
-        : model_(model), run_(run), carriage_(carriage), may_rest_(depends_on_state_alone(model.stage)) {
-        const std::size_t rows = run.command_V.size();
-        found_ = {std::vector(rows, not_known), std::vector(rows, not_known), std::vector(rows, not_known)};
+    Pass(const PlatformModel& model, const PlatformRun& run, const CarriagePath* carriage,
+         const FinerStage* finer)
+        : model_(model),
+          run_(run),
+          carriage_(carriage),
+          finer_(model.stage.heater.delay_s == 0.0 ? finer : nullptr),
+          may_rest_(depends_on_state_alone(model.stage)) {
+        const std::vector<double> none(run.command_V.size(), not_known);
+        found_ = {none, none, none, {}};
+        if (finer != nullptr) found_.bends_lsb.assign(none.size() * (finer->parts - 1), 0.0);
     }
 
     PlatformPrediction predict() {
@@ -116,9 +122,26 @@ class Pass {
             const double before_degC = state.heater.temp_degC;
             const auto before_rise_degC = state.heater.mass_rise_degC;
             const double before_mm = state.wire.contraction_mm;
-            step(state, k);
+            if (finer_ != nullptr && run_.ticks[k] == 1)
+                look_within(state, k);
+            else
+                step(state, k);
             rests = may_rest_ && state.heater.temp_degC == before_degC &&
                     state.heater.mass_rise_degC == before_rise_degC && state.wire.contraction_mm == before_mm;
+        }
+    }
+
+    /// Steps to the next row, and looks at the reading on the way.
+    void look_within(plant::MicroStageState& state, std::size_t k) {
+        plant::MicroStageState on_the_way = state;
+        const double from_lsb = found_.path_lsb[k];
+        step(state, k);
+        const double way_lsb = reading_lsb(state) - from_lsb;
+        const std::size_t bends = finer_->parts - 1;
+        for (std::size_t part = 1; part <= bends; ++part) {
+            advance(finer_->stage, on_the_way, run_.command_V[k], {});
+            const double share = static_cast<double>(part) / static_cast<double>(finer_->parts);
+            found_.bends_lsb[k * bends + part - 1] = reading_lsb(on_the_way) - (from_lsb + share * way_lsb);
         }
     }
 
@@ -166,6 +189,7 @@ class Pass {
     const PlatformModel& model_;
     const PlatformRun& run_;
     const CarriagePath* carriage_;
+    const FinerStage* finer_;
     bool may_rest_;
     /// Offset of the platform, by what the wire remembers from before the recording.
     double beside_mm_ = 0.0;
@@ -239,9 +263,17 @@ PlatformModel platform_model(const plant::PlantParameters& parameters) {
     return {plant::make_micro_stage(*parameters.micro, parameters.tick_s), parameters.axis};
 }
 
+FinerStage finer_stage(const plant::PlantParameters& parameters) {
+    FIDSERVO_DEMAND(parameters.micro.has_value());
+    constexpr double longest_part_s = 0.25e-3, rounding = 1e-9;
+    const double parts = std::max(1.0, std::ceil(parameters.tick_s / longest_part_s - rounding));
+    return {plant::make_micro_stage(*parameters.micro, parameters.tick_s / parts),
+            static_cast<std::size_t>(parts)};
+}
+
 PlatformPrediction predicted_readings(const PlatformModel& model, const PlatformRun& run,
-                                      const CarriagePath* carriage) {
-    return Pass(model, run, carriage).predict();
+                                      const CarriagePath* carriage, const FinerStage* finer) {
+    return Pass(model, run, carriage, finer).predict();
 }
 
 }  // namespace fidservo::gap

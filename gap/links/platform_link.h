@@ -21,6 +21,7 @@
 #include "gap/links/carriage_path.h"
 #include "plant/stage_plant.h"
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -63,14 +64,28 @@ struct PlatformModel {
 /// Requires a micro stage.
 PlatformModel platform_model(const plant::PlantParameters& parameters);
 
+/// The same stage with a tick that is a whole fraction of the rig's, for what happens within a tick: a wire
+/// that begins to transform moves the platform by many micrometres a millisecond at once.
+struct FinerStage {
+    plant::MicroStage stage;
+    std::size_t parts;  ///< of a tick
+};
+
+/// Requires a micro stage. Parts of at most a quarter of a millisecond.
+FinerStage finer_stage(const plant::PlantParameters& parameters);
+
 struct PlatformPrediction {
     std::vector<double> reading_lsb;  ///< mean reading in the rows of all windows; NaN elsewhere
     std::vector<double> path_lsb;  ///< in all rows, faded into each window's path over the 100 ms before it
     std::vector<double> temperature_degC;  ///< of the wire in all rows, not faded
+    /// By how much, within the tick after each row, the reading exceeds a straight line from row to row: at
+    /// the ends of all parts of the tick but the last. Empty unless a finer stage was given.
+    std::vector<double> bends_lsb;
 };
 
 /// @param carriage  null where it does not affect the platform
+/// @param finer     for `bends_lsb`; null: without
 PlatformPrediction predicted_readings(const PlatformModel& model, const PlatformRun& run,
-                                      const CarriagePath* carriage);
+                                      const CarriagePath* carriage, const FinerStage* finer = nullptr);
 
 }  // namespace fidservo::gap

@@ -74,5 +74,24 @@ TEST(BetweenRows, ReadingBesideACornerOfTheModel_IsNotRoundedOff) {
     EXPECT_GT(worst_of_cubic_lsb, 0.5);
 }
 
+/// The wire begins to transform at a quarter of the tick after row 3.
+TEST(BetweenRows, ReadingWhoseModelBendsWithinATick_FollowsIt) {
+    const auto model_lsb = [](double row) { return 2000.0 + 36.0 * std::max(0.0, row - 3.25); };
+    SmoothedReading reading;
+    for (std::size_t k = 0; k < 8; ++k) {
+        const auto row = static_cast<double>(k);
+        reading.model_lsb.push_back(model_lsb(row));
+        for (const double share : {0.25, 0.5, 0.75})
+            reading.model_bends_lsb.push_back(
+                model_lsb(row + share) - (model_lsb(row) + share * (model_lsb(row + 1.0) - model_lsb(row))));
+    }
+    reading.reading_lsb = reading.model_lsb;
+    for (const std::size_t row : {2, 3, 4})
+        for (const double share : {0.0, 0.1, 0.25, 0.4, 0.5, 0.9, 1.0})
+            EXPECT_NEAR(reading_lsb(reading, {row, share, true}), model_lsb(static_cast<double>(row) + share),
+                        1e-9)
+                << row << " " << share;
+}
+
 }  // namespace
 }  // namespace fidservo

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -33,10 +34,14 @@ PlatformRun readings(std::size_t rows, Lsb course_lsb) {
     return run;
 }
 
+PlatformPrediction path_of(std::vector<double> path_lsb) {
+    return {{}, std::move(path_lsb), {}, {}};
+}
+
 /// R.m.s. of (smoothed - true) per stated standard deviation.
 template <class Lsb>
 double stds_off(const PlatformRun& run, const std::vector<double>& model_lsb, Lsb course_lsb) {
-    const SmoothedReading smoothed = smoothed_reading(run, model_lsb, 5.0);
+    const SmoothedReading smoothed = smoothed_reading(run, path_of(model_lsb), 5.0);
     double sum = 0.0;
     for (std::size_t k = 0; k < run.hall_adc.size(); ++k)
         sum += std::pow((smoothed.reading_lsb[k] - course_lsb(k)) / smoothed.std_lsb[k], 2);
@@ -50,7 +55,7 @@ TEST(HallSmoothing, CourseThatTheModelKnows_NoiseGoesDownTenfold) {
     const PlatformRun run = readings(20'000, course);
     std::vector<double> model;
     for (std::size_t k = 0; k < run.hall_adc.size(); ++k) model.push_back(course(k));
-    const SmoothedReading smoothed = smoothed_reading(run, model, 5.0);
+    const SmoothedReading smoothed = smoothed_reading(run, path_of(model), 5.0);
     double sum = 0.0;
     for (std::size_t k = 0; k < run.hall_adc.size(); ++k)
         sum += std::pow(smoothed.reading_lsb[k] - course(k), 2);
@@ -61,7 +66,8 @@ TEST(HallSmoothing, CourseThatTheModelKnows_NoiseGoesDownTenfold) {
 TEST(HallSmoothing, WhatItsErrorChangesBy_IsAsStated) {
     const auto course = [](std::size_t) { return 1500.3; };
     const PlatformRun run = readings(20'000, course);
-    const SmoothedReading smoothed = smoothed_reading(run, std::vector(run.hall_adc.size(), 1500.3), 5.0);
+    const SmoothedReading smoothed =
+        smoothed_reading(run, path_of(std::vector(run.hall_adc.size(), 1500.3)), 5.0);
     for (const std::size_t ticks : {3, 30, 3000}) {
         double sum = 0.0;
         for (std::size_t k = 0; k + ticks < run.hall_adc.size(); ++k)
@@ -86,10 +92,10 @@ TEST(HallSmoothing, SwingThatTheModelDoesNotKnow_IsKept) {
 TEST(HallSmoothing, MissingReadings_AreHeld) {
     PlatformRun run = readings(600, [](std::size_t) { return 1500.0; });
     for (std::size_t k = 200; k < 300; ++k) run.hall_adc[k] = std::numeric_limits<double>::quiet_NaN();
-    const SmoothedReading smoothed = smoothed_reading(run, std::vector<double>(600, 1500.0), 5.0);
+    const SmoothedReading smoothed = smoothed_reading(run, path_of(std::vector<double>(600, 1500.0)), 5.0);
     EXPECT_EQ(smoothed.reading_lsb[250], smoothed.reading_lsb[199]);
     const PlatformRun none = readings(0, [](std::size_t) { return 0.0; });
-    EXPECT_TRUE(smoothed_reading(none, {}, 5.0).reading_lsb.empty());
+    EXPECT_TRUE(smoothed_reading(none, path_of({}), 5.0).reading_lsb.empty());
 }
 
 }  // namespace

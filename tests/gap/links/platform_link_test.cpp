@@ -8,6 +8,8 @@
 #include "tests/gap/effects.h"
 #include "tests/reference_rig.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -59,6 +61,33 @@ INSTANTIATE_TEST_SUITE_P(Effects, PredictedWire,
                                            "second_thermal_mass", "heater_delay", "hall_drift",
                                            "hall_crosstalk",
                                            "stress_shift:shift_degC=2,spring_degC_per_mm=1"));
+
+/// On a rig with a tick of 5 ms, against the same wire stepped by quarters of a millisecond.
+TEST(PredictedWireWithinTicks, IsThatOfAFinerTick) {
+    Rig rig = reference_rig();
+    rig.tick_s = 5e-3;
+    const plant::PlantParameters parameters = plant::plant_parameters(rig);
+    const FinerStage finer = finer_stage(parameters);
+    ASSERT_EQ(finer.parts, 20U);
+    PlatformRun run = uncorrected_run();
+    run.tick_s = rig.tick_s;
+    run.ticks.assign(run.ticks.size(), 1);
+    const PlatformPrediction found = predicted_readings(platform_model(parameters), run, nullptr, &finer);
+    plant::MicroStageState state = plant::start(finer.stage, 0);
+    double worst_lsb = 0.0, most_bent_lsb = 0.0;
+    for (std::size_t k = 0; k + 1 < run.command_V.size(); ++k)
+        for (std::size_t part = 0; part < finer.parts; ++part) {
+            const double share = static_cast<double>(part) / 20.0;
+            const double bend_lsb = part == 0 ? 0.0 : found.bends_lsb[19 * k + part - 1];
+            const double line_lsb = found.path_lsb[k] + share * (found.path_lsb[k + 1] - found.path_lsb[k]);
+            worst_lsb =
+                std::max(worst_lsb, std::abs(line_lsb + bend_lsb - mean_reading_lsb(finer.stage, state)));
+            most_bent_lsb = std::max(most_bent_lsb, std::abs(bend_lsb));
+            plant::advance(finer.stage, state, run.command_V[k], {});
+        }
+    EXPECT_LT(worst_lsb, 1e-6);
+    EXPECT_GT(most_bent_lsb, 0.5) << "a straight line would do";
+}
 
 }  // namespace
 
