@@ -278,11 +278,8 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
     Eigen::Index parameters = 0;
     for (const plant::EffectSetting& setting : hypothesis)
         parameters += static_cast<Eigen::Index>(setting.values.size());
-    const double variance =
-        selection.steps.back().is_of_one_half ? std::numeric_limits<double>::quiet_NaN() : 0.0;
-    const Fit fitted{.hypothesis = hypothesis,
-                     .loss = 0.0,
-                     .covariance = Eigen::MatrixXd::Constant(parameters, parameters, variance)};
+    const Fit fitted{
+        .hypothesis = hypothesis, .loss = 0.0, .covariance = Eigen::MatrixXd::Zero(parameters, parameters)};
     diagnosis.signals = gaps_of(evidence, selection);
     SignalFlags left{};
     bool matters_something = false;
@@ -292,6 +289,10 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
         matters_something = matters_something || (left[index] && signal.discrepancy > matters[index]);
     }
     say_what_is_named(evidence, selection, fitted, left, {}, diagnosis);
+    // What both halves agree on to the last digit was not fitted to one of them.
+    for (FoundEffect& effect : diagnosis.effects)
+        for (FittedParameter& parameter : effect.parameters)
+            if (parameter.std == 0.0) parameter.std = std::numeric_limits<double>::quiet_NaN();
     diagnosis.verdict = verdict_of(selection, matters_something);
     return diagnosis;
 }

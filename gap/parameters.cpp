@@ -16,9 +16,9 @@ std::vector<FittedParameter> parameters_of(const plant::EffectSetting& setting,
         if (parameter.is_negligible(setting.values[k]) ||
             (parameter.is_choice() && !parameter.is_unusual(setting.values[k])))
             continue;
-        const double apart = 0.5 * (halves[0].values[k] - halves[1].values[k]), variance = covariance(at, at);
+        const double apart = 0.5 * (halves[0].values[k] - halves[1].values[k]);
         parameters.push_back({std::string(parameter.name), std::string(parameter.unit), setting.values[k],
-                              std::hypot(std::sqrt(variance < 0.0 ? 0.0 : variance), apart)});
+                              std::hypot(std::sqrt(std::max(0.0, covariance(at, at))), apart)});
     }
     return parameters;
 }

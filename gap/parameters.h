@@ -14,8 +14,7 @@ namespace fidservo::gap {
 /// choices are left out.
 /// @param halves      fits to each half of the windows: where the loss has many small local minima, their
 /// difference measures the uncertainty better than the curvature at one of them
-/// @param covariance  of all parameters of a hypothesis; the setting's begin at `first`. Where it is NaN,
-/// standard deviations are not known: NaN
+/// @param covariance  of all parameters of a hypothesis; the setting's begin at `first`
 std::vector<FittedParameter> parameters_of(const plant::EffectSetting& setting,
                                            const std::array<plant::EffectSetting, 2>& halves,
                                            const Eigen::MatrixXd& covariance, Eigen::Index first);

@@ -111,6 +111,7 @@ struct RigEdit::Impl {
     /// Of an effect among those that the file states.
     std::optional<std::size_t> place_of(std::string_view effect) const {
         const YAML::Node effects = root["effects"];
+        if (!effects) return {};
         for (std::size_t i = 0; i < effects.size(); ++i)
             if (effects[i]["name"].as<std::string>() == effect) return i;
         return {};
