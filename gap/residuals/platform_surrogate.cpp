@@ -6,7 +6,9 @@
 #include "plant/effects/catalogue.h"
 #include "plant/platform_swing.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <numbers>
 #include <utility>
@@ -23,9 +25,30 @@ struct Row {
 
 class PlatformColumns {
   public:
-    explicit PlatformColumns(const Evidence& evidence) : evidence_(evidence) {
-        for (const Window& window : evidence.windows())
-            if (window.signal == Signal::hall) size_ = std::max(size_, window.end);
+    explicit PlatformColumns(const Evidence& evidence) : evidence_(evidence), windows_(evidence.windows()) {
+        for (Window& window : windows_) {
+            if (window.signal != Signal::hall) continue;
+            const std::size_t rows = window.end - window.begin;
+            window.begin = size_;
+            window.end = size_ += rows;
+        }
+    }
+
+    /// All windows, those of the Hall reading with their ranges among the values of columns, which are of
+    /// this signal alone.
+    const std::vector<Window>& windows() const { return windows_; }
+
+    /// The Hall reading's among the errors of all signals.
+    Errors own(const Errors& errors) const {
+        Errors own(size_);
+        for (std::size_t w = 0; w < windows_.size(); ++w) {
+            const Window& window = evidence_.windows()[w];
+            if (window.signal == Signal::hall)
+                std::copy_n(errors.begin() + static_cast<std::ptrdiff_t>(window.begin),
+                            window.end - window.begin,
+                            own.begin() + static_cast<std::ptrdiff_t>(windows_[w].begin));
+        }
+        return own;
     }
 
     Row row(const Window& window, std::size_t k) const {
@@ -49,11 +72,12 @@ class PlatformColumns {
     Column of(Dependence group,
               const std::function<double(const Window&, std::size_t, const Row&)>& value) const {
         Column column{static_cast<int>(group), std::vector<float>(size_, 0.0F)};
-        for (const Window& window : evidence_.windows()) {
+        for (std::size_t w = 0; w < windows_.size(); ++w) {
+            const Window& window = evidence_.windows()[w];
             if (window.signal != Signal::hall) continue;
             for (std::size_t k = 0; k < window.rows; ++k) {
                 const double here = value(window, k, row(window, window.first_row + k));
-                column.values[window.begin + k] = std::isfinite(here) ? static_cast<float>(here) : 0.0F;
+                column.values[windows_[w].begin + k] = std::isfinite(here) ? static_cast<float>(here) : 0.0F;
             }
         }
         return column;
@@ -74,6 +98,7 @@ class PlatformColumns {
 
   private:
     const Evidence& evidence_;
+    std::vector<Window> windows_;
     std::size_t size_ = 0;
 };
 
@@ -136,9 +161,9 @@ void add_wire_paths(std::vector<Column>& columns, const PlatformColumns& make, c
 
 }  // namespace
 
-Surrogate platform_surrogate(const Evidence& evidence) {
+Surrogate platform_surrogate(const Evidence& evidence, const Errors& errors) {
     const PlatformColumns make(evidence);
-    Surrogate surrogate{Signal::hall, {}, {}};
+    Surrogate surrogate{Signal::hall, {}, {}, make.own(errors), make.windows()};
     std::vector<Column>& columns = surrogate.columns;
     const double tick_s = evidence.rig().tick_s;
     const Errors warmth = tangent(evidence, a_degree_warmer);

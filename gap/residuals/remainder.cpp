@@ -71,6 +71,11 @@ Model model_of(const Surrogate& surrogate, const Errors& errors, const std::vect
             surrogate.as_good, surrogate.period_mm};
 }
 
+/// Of a surrogate with errors and windows of its own.
+Model model_of(const Surrogate& surrogate, std::span<const std::uint8_t> half) {
+    return model_of(surrogate, surrogate.errors, surrogate.windows, half);
+}
+
 /// By the first tail that finds any.
 Dependences first_found(const Model& model, std::span<const double> tails) {
     Dependences found;
@@ -96,8 +101,7 @@ Dependences dependences_of_carriage(const Evidence& evidence, const Errors& erro
     for (const double tail : tails) {
         for (std::size_t k = 0; k < edges_V.size(); ++k) {
             if (k == models.size()) {
-                const Surrogate surrogate = carriage_surrogate(evidence, errors, edges_V[k], period);
-                models.push_back(model_of(surrogate, surrogate.errors, surrogate.windows, half));
+                models.push_back(model_of(carriage_surrogate(evidence, errors, edges_V[k], period), half));
             }
             found = models[k].dependences(tail);
             if (!found.groups.empty()) return found;
@@ -118,8 +122,7 @@ Dependences dependences(const Evidence& evidence, Signal signal, const Errors& e
         case Signal::hall:
             if (only_minor_loops_are_off(evidence, errors))
                 return {{static_cast<int>(Dependence::minor_loops)}};
-            return first_found(model_of(platform_surrogate(evidence), errors, evidence.windows(), half),
-                               tails);
+            return first_found(model_of(platform_surrogate(evidence, errors), half), tails);
         case Signal::tag:
             if (tags_are_sheared(evidence, errors)) return {{static_cast<int>(Dependence::motion_by_row)}};
             return first_found(model_of(tag_surrogate(evidence, errors), errors, evidence.windows(), half),

@@ -83,8 +83,8 @@ std::vector<std::vector<double>> ways_gone_mm(const Evidence& evidence);
 Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, double edge_V,
                              const PositionPeriod& period);
 
-/// The surrogate for the Hall reading's errors.
-Surrogate platform_surrogate(const Evidence& evidence);
+/// The surrogate for the Hall reading's errors, with these errors.
+Surrogate platform_surrogate(const Evidence& evidence, const Errors& errors);
 
 /// The surrogate for the tags' errors. Dependences without a direction of their own shift tags along the
 /// stage's motion; each window's mean along it is a nuisance parameter.

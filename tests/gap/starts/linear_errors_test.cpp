@@ -49,6 +49,7 @@ TEST(LinearErrors, OfTwoKnownAndTwoFurtherChanges_AreThoseOfFourKnownOnes) {
     NoiseStream noise(1, "errors");
     const Errors errors = drawn_errors(noise);
     std::vector<Errors> changes;
+    changes.reserve(4);
     for (int k = 0; k < 4; ++k) changes.push_back(drawn_errors(noise));
     const Wanted counted{1, 0, 1, 1};
     const LinearErrors::Optimum at_once = LinearErrors(windows, errors, changes).optimum(counted);
