@@ -271,7 +271,7 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
 }
 
 /// The same without another prediction: values as one half gives them, uncertain by how far the other one is
-/// from it, or by nobody knows how much if that one was not fitted.
+/// from it; if that one was not fitted, by an unknown amount.
 Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, const SignalLimits& matters) {
     Diagnosis diagnosis;
     const Hypothesis& hypothesis = selection.steps.back().of_half[0];
