@@ -265,7 +265,7 @@ PlatformModel platform_model(const plant::PlantParameters& parameters) {
 
 FinerStage finer_stage(const plant::PlantParameters& parameters) {
     FIDSERVO_DEMAND(parameters.micro.has_value());
-    constexpr double longest_part_s = 0.25e-3, rounding = 1e-9;
+    constexpr double longest_part_s = 1e-3, rounding = 1e-9;
     const double parts = std::max(1.0, std::ceil(parameters.tick_s / longest_part_s - rounding));
     return {plant::make_micro_stage(*parameters.micro, parameters.tick_s / parts),
             static_cast<std::size_t>(parts)};

@@ -71,7 +71,7 @@ struct FinerStage {
     std::size_t parts;  ///< of a tick
 };
 
-/// Requires a micro stage. Parts of at most a quarter of a millisecond.
+/// Requires a micro stage. Parts of at most a millisecond: within that a straight line does.
 FinerStage finer_stage(const plant::PlantParameters& parameters);
 
 struct PlatformPrediction {

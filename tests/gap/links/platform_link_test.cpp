@@ -62,13 +62,13 @@ INSTANTIATE_TEST_SUITE_P(Effects, PredictedWire,
                                            "hall_crosstalk",
                                            "stress_shift:shift_degC=2,spring_degC_per_mm=1"));
 
-/// On a rig with a tick of 5 ms, against the same wire stepped by quarters of a millisecond.
+/// On a rig with a tick of 5 ms, against the same wire stepped by milliseconds.
 TEST(PredictedWireWithinTicks, IsThatOfAFinerTick) {
     Rig rig = reference_rig();
     rig.tick_s = 5e-3;
     const plant::PlantParameters parameters = plant::plant_parameters(rig);
     const FinerStage finer = finer_stage(parameters);
-    ASSERT_EQ(finer.parts, 20U);
+    ASSERT_EQ(finer.parts, 5U);
     PlatformRun run = uncorrected_run();
     run.tick_s = rig.tick_s;
     run.ticks.assign(run.ticks.size(), 1);
@@ -77,8 +77,8 @@ TEST(PredictedWireWithinTicks, IsThatOfAFinerTick) {
     double worst_lsb = 0.0, most_bent_lsb = 0.0;
     for (std::size_t k = 0; k + 1 < run.command_V.size(); ++k)
         for (std::size_t part = 0; part < finer.parts; ++part) {
-            const double share = static_cast<double>(part) / 20.0;
-            const double bend_lsb = part == 0 ? 0.0 : found.bends_lsb[19 * k + part - 1];
+            const double share = static_cast<double>(part) / 5.0;
+            const double bend_lsb = part == 0 ? 0.0 : found.bends_lsb[4 * k + part - 1];
             const double line_lsb = found.path_lsb[k] + share * (found.path_lsb[k + 1] - found.path_lsb[k]);
             worst_lsb =
                 std::max(worst_lsb, std::abs(line_lsb + bend_lsb - mean_reading_lsb(finer.stage, state)));
