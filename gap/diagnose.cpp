@@ -90,8 +90,9 @@ std::vector<TriedEffect> tried_effects(const Evidence& evidence, const Selection
             const TotalGap gap =
                 total_gap(signal_gaps(evidence, nothing.mean_squares, trial.fitted.mean_squares));
             effect.gap_removed = gap.removed();
-            effect.probability =
-                calibrated_probability(support_alone(evidence, trial, nothing, weights[k], gap));
+            if (named == found.end())
+                effect.probability =
+                    calibrated_probability(support_alone(evidence, trial, nothing, weights[k], gap));
         }
         if (named != found.end()) effect.probability = named->probability;
         tried.push_back(std::move(effect));
@@ -181,10 +182,6 @@ Verdict verdict_of(const Selection& selection, bool something_is_left) {
     return something_is_left ? Verdict::partly_explained : Verdict::explained;
 }
 
-bool is_gap_left(Verdict verdict) {
-    return verdict == Verdict::partly_explained || verdict == Verdict::unexplained;
-}
-
 std::vector<SignalGap> gaps_of(const Evidence& evidence, const Selection& selection) {
     return signal_gaps(evidence, selection.steps.front().mean_squares, selection.steps.back().mean_squares);
 }
@@ -232,18 +229,17 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
     const std::ptrdiff_t left_out = leave_out_unpredictable(evidence, selection);
     const CrossFit& explained = selection.steps.back();
     diagnosis.signals = gaps_of(evidence, selection);
-    const std::optional<Remainder> left = remainder_of(evidence, explained, tail);
+    const LeftOver left_over(evidence, explained);
+    const std::optional<Remainder> left = left_over.remainder(tail);
     const Fit fitted = fit_to_all(evidence, explained);
     std::optional<Remainder> whole;
-    SignalFlags off = signals_left(evidence, explained);
-    if (left) off[index_of(*left->signal)] = true;
     const bool is_view_named = std::ranges::any_of(selection.choices, [](const Choice& choice) {
         return stage_of(choice.candidate->effect->block) == Stage::camera;
     });
     if (is_view_named) whole = remainder_of(evidence, selection.steps.front(), tail);
-    say_what_is_named(evidence, selection, fitted, off, whole, diagnosis);
+    say_what_is_named(evidence, selection, fitted, left_over.signals(), whole, diagnosis);
     diagnosis.unexplained =
-        options.matters == SignalLimits{} ? left : remainder_of(evidence, explained, tail, options.matters);
+        options.matters == SignalLimits{} ? left : left_over.remainder(tail, options.matters);
     if (are_credible(diagnosis.effects) || selection.choices.empty())
         whole.reset();
     else if (!whole)
@@ -281,13 +277,11 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
     const Fit fitted{
         .hypothesis = hypothesis, .loss = 0.0, .covariance = Eigen::MatrixXd::Zero(parameters, parameters)};
     diagnosis.signals = gaps_of(evidence, selection);
-    SignalFlags left{};
-    bool matters_something = false;
-    for (const SignalGap& signal : diagnosis.signals) {
+    const SignalFlags left = signals_left(diagnosis.signals);
+    const bool matters_something = std::ranges::any_of(diagnosis.signals, [&](const SignalGap& signal) {
         const std::size_t index = index_of(signal.signal);
-        left[index] = is_left(signal);
-        matters_something = matters_something || (left[index] && signal.discrepancy > matters[index]);
-    }
+        return left[index] && signal.discrepancy > matters[index];
+    });
     say_what_is_named(evidence, selection, fitted, left, {}, diagnosis);
     // What both halves agree on to the last digit was not fitted to one of them.
     for (FoundEffect& effect : diagnosis.effects)

@@ -10,6 +10,10 @@ std::string_view name_of(Verdict verdict) {
     return names.at(static_cast<std::size_t>(verdict));
 }
 
+bool is_gap_left(Verdict verdict) {
+    return verdict == Verdict::partly_explained || verdict == Verdict::unexplained;
+}
+
 const Equation* proposed_equation(const Diagnosis& diagnosis) {
     const bool is_there = diagnosis.unexplained && diagnosis.unexplained->equation;
     return is_there ? &*diagnosis.unexplained->equation : nullptr;

@@ -19,6 +19,8 @@ enum class Verdict {
 };
 /// The name in files.
 std::string_view name_of(Verdict verdict);
+/// Whether a gap remains.
+bool is_gap_left(Verdict verdict);
 
 /// A size for each signal, in the signal's unit.
 using SignalLimits = std::array<double, signal_count>;

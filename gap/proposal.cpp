@@ -143,9 +143,7 @@ std::optional<ProposedEquation> equation_for(Proposals& proposals, Diagnosis& di
 
 Ended propose_equation(const Evidence& evidence, const Selection& selection, const DiagnosisOptions& options,
                        Diagnosis& diagnosis) {
-    const bool something_is_left =
-        diagnosis.verdict == Verdict::partly_explained || diagnosis.verdict == Verdict::unexplained;
-    if (options.equation_s <= 0.0 || !something_is_left) return Ended::finished;
+    if (options.equation_s <= 0.0 || !is_gap_left(diagnosis.verdict)) return Ended::finished;
     evidence.budget()->prolong(options.equation_s);
     if (options.selection.search.tell) options.selection.search.tell("equation for what is left");
     try {

@@ -17,6 +17,9 @@ class CountedRows {
     /// The counted windows in order; their ranges are those in what of() returns.
     const std::vector<Window>& windows() const { return windows_; }
 
+    /// The number of rows of the counted windows.
+    std::size_t size() const { return rows_; }
+
     /// The errors of the counted windows; empty for errors of a hypothesis that the plant refused.
     /// @param errors  of all windows
     Errors of(const Errors& errors) const;

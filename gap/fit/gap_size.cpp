@@ -78,6 +78,12 @@ bool is_left(const SignalGap& signal) {
     return signal.after > least_floors * signal.floor;
 }
 
+SignalFlags signals_left(std::span<const SignalGap> signals) {
+    SignalFlags left{};
+    for (const SignalGap& signal : signals) left[index_of(signal.signal)] = is_left(signal);
+    return left;
+}
+
 TotalGap total_gap(std::span<const SignalGap> signals) {
     MeanOverSignals mean;
     for (const SignalGap& signal : signals)

@@ -8,6 +8,7 @@
 // floor:
 //
 //     removed = 1 - (after^2 - 1) / (before^2 - 1),  clipped to 0 .. 1
+#include "gap/candidates/coupling.h"
 #include "gap/diagnosis.h"
 #include "gap/evidence.h"
 
@@ -29,6 +30,9 @@ std::vector<SignalGap> signal_gaps(const Evidence& evidence, std::span<const dou
 
 /// Whether what remains of a signal's error is above its floor.
 bool is_left(const SignalGap& signal);
+
+/// Which signals have something left.
+SignalFlags signals_left(std::span<const SignalGap> signals);
 
 TotalGap total_gap(std::span<const SignalGap> signals);
 

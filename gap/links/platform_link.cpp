@@ -37,7 +37,7 @@ class Pass {
         : model_(model),
           run_(run),
           carriage_(carriage),
-          finer_(model.stage.heater.delay_s == 0.0 ? finer : nullptr),
+          finer_(finer != nullptr && finer->parts > 1 && model.stage.heater.delay_s == 0.0 ? finer : nullptr),
           may_rest_(depends_on_state_alone(model.stage)) {
         const std::vector<double> none(run.command_V.size(), not_known);
         found_ = {none, none, none, {}};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rig.h"
 #include "gap/balance/hat_functions.h"
+#include "gap/candidates/coupling.h"
+#include "gap/fit/counted_rows.h"
 #include "gap/residuals/surrogate.h"
 #include "gap/residuals/wire_path.h"
 #include "plant/effects/catalogue.h"
@@ -25,13 +27,13 @@ struct Row {
 
 class PlatformColumns {
   public:
-    explicit PlatformColumns(const Evidence& evidence) : evidence_(evidence), windows_(evidence.windows()) {
-        for (Window& window : windows_) {
-            if (window.signal != Signal::hall) continue;
-            const std::size_t rows = window.end - window.begin;
-            window.begin = size_;
-            window.end = size_ += rows;
-        }
+    explicit PlatformColumns(const Evidence& evidence)
+        : evidence_(evidence),
+          windows_(evidence.windows()),
+          rows_(windows_, only_of(windows_, everything(evidence), only(Signal::hall))) {
+        auto of_hall = rows_.windows().begin();
+        for (Window& window : windows_)
+            if (window.signal == Signal::hall) window = *of_hall++;
     }
 
     /// All windows, those of the Hall reading with their ranges among the values of columns, which are of
@@ -39,17 +41,7 @@ class PlatformColumns {
     const std::vector<Window>& windows() const { return windows_; }
 
     /// The Hall reading's among the errors of all signals.
-    Errors own(const Errors& errors) const {
-        Errors own(size_);
-        for (std::size_t w = 0; w < windows_.size(); ++w) {
-            const Window& window = evidence_.windows()[w];
-            if (window.signal == Signal::hall)
-                std::copy_n(errors.begin() + static_cast<std::ptrdiff_t>(window.begin),
-                            window.end - window.begin,
-                            own.begin() + static_cast<std::ptrdiff_t>(windows_[w].begin));
-        }
-        return own;
-    }
+    Errors own(const Errors& errors) const { return rows_.of(errors); }
 
     Row row(const Window& window, std::size_t k) const {
         constexpr std::size_t look_back = 20;
@@ -71,7 +63,7 @@ class PlatformColumns {
 
     Column of(Dependence group,
               const std::function<double(const Window&, std::size_t, const Row&)>& value) const {
-        Column column{static_cast<int>(group), std::vector<float>(size_, 0.0F)};
+        Column column{static_cast<int>(group), std::vector<float>(rows_.size(), 0.0F)};
         for (std::size_t w = 0; w < windows_.size(); ++w) {
             const Window& window = evidence_.windows()[w];
             if (window.signal != Signal::hall) continue;
@@ -99,7 +91,7 @@ class PlatformColumns {
   private:
     const Evidence& evidence_;
     std::vector<Window> windows_;
-    std::size_t size_ = 0;
+    CountedRows rows_;
 };
 
 /// A small change of the wire, of whose tangents columns are multiples.

@@ -100,9 +100,8 @@ Dependences dependences_of_carriage(const Evidence& evidence, const Errors& erro
     Dependences found;
     for (const double tail : tails) {
         for (std::size_t k = 0; k < edges_V.size(); ++k) {
-            if (k == models.size()) {
+            if (k == models.size())
                 models.push_back(model_of(carriage_surrogate(evidence, errors, edges_V[k], period), half));
-            }
             found = models[k].dependences(tail);
             if (!found.groups.empty()) return found;
         }
@@ -142,10 +141,6 @@ std::string what_remains(const SignalGap& gap, const Pattern& pattern) {
                        pattern.floors[index_of(gap.signal)]);
 }
 
-std::vector<SignalGap> gaps_under(const Evidence& evidence, const CrossFit& explained) {
-    return signal_gaps(evidence, explained.mean_squares, explained.mean_squares);
-}
-
 /// Whether a signal is off its floor, but for tags that only show how wrong the carriage's model is.
 bool is_off(const Pattern& pattern, const SignalGap& gap) {
     return pattern.floors[index_of(gap.signal)] >= least_floors &&
@@ -182,36 +177,41 @@ Remainder remainder_of_signal(const SignalGap& gap, const Pattern& pattern, cons
 
 }  // namespace
 
-std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail,
-                                      const SignalLimits& matters) {
-    const std::vector<std::uint8_t> half = halves(evidence);
-    const Errors errors = held_out_errors(evidence, explained, half);
-    std::vector<SignalGap> gaps = gaps_under(evidence, explained);
-    const Pattern pattern = pattern_of(evidence, gaps, errors);
-    const auto floors = [&](const SignalGap& gap) { return pattern.floors[index_of(gap.signal)]; };
-    const std::optional<Signal> suspect = false_sensor(pattern);
-    std::ranges::sort(gaps, std::greater{},
-                      [&](const SignalGap& gap) { return std::pair(gap.signal == suspect, floors(gap)); });
-    for (const SignalGap& gap : gaps) {
-        if (!is_off(pattern, gap) || !does_matter(gap, matters)) continue;
+LeftOver::LeftOver(const Evidence& evidence, const CrossFit& explained)
+    : evidence_(evidence),
+      half_(halves(evidence)),
+      errors_(held_out_errors(evidence, explained, half_)),
+      gaps_(signal_gaps(evidence, explained.mean_squares, explained.mean_squares)),
+      pattern_(pattern_of(evidence, gaps_, errors_)) {
+    const std::optional<Signal> suspect = false_sensor(pattern_);
+    std::ranges::sort(gaps_, std::greater{}, [&](const SignalGap& gap) {
+        return std::pair(gap.signal == suspect, pattern_.floors[index_of(gap.signal)]);
+    });
+}
+
+std::optional<Remainder> LeftOver::remainder(double tail, const SignalLimits& matters) const {
+    for (const SignalGap& gap : gaps_) {
+        if (!is_off(pattern_, gap) || !does_matter(gap, matters)) continue;
         // Where a gap is beyond doubt, what it likely depends on says more than nothing.
-        const bool is_clear = floors(gap) >= clear_floors;
+        const bool is_clear = pattern_.floors[index_of(gap.signal)] >= clear_floors;
         const std::array tails{tail, likely * tail};
         const Dependences found =
-            dependences(evidence, gap.signal, errors, half, std::span(tails).first(is_clear ? 2 : 1));
+            dependences(evidence_, gap.signal, errors_, half_, std::span(tails).first(is_clear ? 2 : 1));
         if (found.groups.empty() && !is_clear) continue;
-        return remainder_of_signal(gap, pattern, found);
+        return remainder_of_signal(gap, pattern_, found);
     }
     return {};
 }
 
-SignalFlags signals_left(const Evidence& evidence, const CrossFit& explained) {
-    const std::vector<SignalGap> gaps = gaps_under(evidence, explained);
-    const Pattern pattern =
-        pattern_of(evidence, gaps, held_out_errors(evidence, explained, halves(evidence)));
+SignalFlags LeftOver::signals() const {
     SignalFlags left{};
-    for (const SignalGap& gap : gaps) left[index_of(gap.signal)] = is_off(pattern, gap);
+    for (const SignalGap& gap : gaps_) left[index_of(gap.signal)] = is_off(pattern_, gap);
     return left;
+}
+
+std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail,
+                                      const SignalLimits& matters) {
+    return LeftOver(evidence, explained).remainder(tail, matters);
 }
 
 std::optional<Remainder> remainder_at_sight(std::span<const SignalGap> gaps, const SignalLimits& matters) {

@@ -174,9 +174,7 @@ Support support_alone(const Evidence& evidence, const Trial& trial, const CrossF
     const SignalFlags teachers = teachers_of(*trial.candidate->effect);
     const OwnFloors own = own_floors(typical_floors(evidence.windows(), fitted.mean_squares),
                                      typical_floors(evidence.windows(), nothing.mean_squares), teachers);
-    SignalFlags left{};
-    for (const SignalGap& signal : signal_gaps(evidence, nothing.mean_squares, fitted.mean_squares))
-        left[index_of(signal.signal)] = is_left(signal);
+    const SignalFlags left = signals_left(signal_gaps(evidence, nothing.mean_squares, fitted.mean_squares));
     return {.weight = weight,
             .left_floors = own.left,
             .without_floors = own.without,

@@ -12,9 +12,9 @@
 #include "src/session/home.h"
 #include "src/session/motion_params.h"
 #include "src/session/stage_choice.h"
+#include "src/simulation/experiment_file.h"
 #include "src/simulation/planned_experiments.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -35,11 +35,6 @@ namespace fs = std::filesystem;
 std::optional<double> wire_limit_degC(const SessionOptions& options, const Rig& rig) {
     if (stage_is_simulated(options)) return std::nullopt;
     return watchdog_params(rig, load_stage_keys(options.rig_file).watchdog).wire_limit_degC;
-}
-
-/// Whether an experiment is a kind whose excitation is drawn, not a file.
-bool is_drawn(const std::string& experiment) {
-    return std::ranges::find(experiment_kinds(), experiment) != experiment_kinds().end();
 }
 
 /// The SHA-256 of the rig's files, of the seed and of the experiment's commands, tick by tick.
@@ -100,8 +95,9 @@ RecordPlan plan_recordings(const ExperimentOptions& options, const Rig& rig, con
     if (is_campaign(options)) return campaign(options, rig, limit_degC);
     auto [name, experiment] = planned_experiment(options.experiment, rig, options.session.seed);
     if (const auto why = why_not(rig, experiment, limit_degC))
-        throw InputError(fmt::format("{}: the rig {} cannot do it: {}{}", options.experiment, rig.name, *why,
-                                     is_drawn(options.experiment) ? "; another --seed draws another" : ""));
+        throw InputError(
+            fmt::format("{}: the rig {} cannot do it: {}{}", options.experiment, rig.name, *why,
+                        is_experiment_file(options.experiment) ? "" : "; another --seed draws another"));
     return {{planned(options, rig, name, options.out, std::move(experiment))}, {}};
 }
 
