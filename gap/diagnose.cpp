@@ -21,6 +21,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -191,7 +192,7 @@ std::vector<SignalGap> gaps_of(const Evidence& evidence, const Selection& select
 /// @param left   signals in which something is left
 /// @param whole  what the gap depends on where nothing is named; empty where that is unknown
 void say_what_is_named(const Evidence& evidence, const Selection& selection, const Fit& fitted,
-                       const SignalFlags& left, const std::optional<Remainder>& whole, Diagnosis& diagnosis) {
+                       const SignalsLeft& left, const std::optional<Remainder>& whole, Diagnosis& diagnosis) {
     std::vector<ChoiceWeights> weights;
     for (const Choice& choice : selection.choices)
         weights.push_back(weights_of(evidence, choice, selection.steps.back().mean_squares));
@@ -201,6 +202,21 @@ void say_what_is_named(const Evidence& evidence, const Selection& selection, con
         found_effects(evidence, selection, supports(evidence, selection, weights, left, whole), fitted);
     diagnosis.candidates = tried_effects(evidence, selection, diagnosis.effects);
     diagnosis.where = blocks_of(selection, weights, diagnosis.effects);
+}
+
+SignalFlags dependent_signals(const std::vector<Remainder>& remainders) {
+    SignalFlags dependent{};
+    for (const Remainder& remainder : remainders)
+        dependent[index_of(*remainder.signal)] = !remainder.depends_on.empty();
+    return dependent;
+}
+
+/// The first of them, which says the most, with what the others say. Empty if there is none.
+std::optional<Remainder> together(const std::vector<Remainder>& remainders) {
+    if (remainders.empty()) return {};
+    Remainder all = remainders.front();
+    for (const Remainder& other : remainders | std::views::drop(1)) all.text += ". " + other.text;
+    return all;
 }
 
 /// Which block is accused beside the names, and how likely it is the cause rather than they.
@@ -230,16 +246,17 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
     const CrossFit& explained = selection.steps.back();
     diagnosis.signals = gaps_of(evidence, selection);
     const LeftOver left_over(evidence, explained);
-    const std::optional<Remainder> left = left_over.remainder(tail);
+    const std::vector<Remainder> left = left_over.remainders(tail);
     const Fit fitted = fit_to_all(evidence, explained);
     std::optional<Remainder> whole;
     const bool is_view_named = std::ranges::any_of(selection.choices, [](const Choice& choice) {
         return stage_of(choice.candidate->effect->block) == Stage::camera;
     });
     if (is_view_named) whole = remainder_of(evidence, selection.steps.front(), tail);
-    say_what_is_named(evidence, selection, fitted, left_over.signals(), whole, diagnosis);
-    diagnosis.unexplained =
-        options.matters == SignalLimits{} ? left : left_over.remainder(tail, options.matters);
+    say_what_is_named(evidence, selection, fitted,
+                      {.off = left_over.signals(), .dependent = dependent_signals(left)}, whole, diagnosis);
+    diagnosis.unexplained = together(
+        options.matters == SignalLimits{} ? left : left_over.remainders(tail, options.matters));
     if (are_credible(diagnosis.effects) || selection.choices.empty())
         whole.reset();
     else if (!whole)
@@ -282,7 +299,7 @@ Diagnosis as_it_stands(const Evidence& evidence, const Selection& selection, con
         const std::size_t index = index_of(signal.signal);
         return left[index] && signal.discrepancy > matters[index];
     });
-    say_what_is_named(evidence, selection, fitted, left, {}, diagnosis);
+    say_what_is_named(evidence, selection, fitted, {.off = left, .dependent = left}, {}, diagnosis);
     // What both halves agree on to the last digit was not fitted to one of them.
     for (FoundEffect& effect : diagnosis.effects)
         for (FittedParameter& parameter : effect.parameters)

@@ -68,6 +68,8 @@ struct Support {
     bool is_at_bound = false;
     /// Whether a signal that determines the effect stays off its floor.
     bool leaves_something = false;
+    /// Whether residual analysis finds on what the errors depend that remain in such a signal.
+    bool leaves_dependence = false;
     /// Of an effect of the camera or what it sees: whether residual analysis without names finds that the
     /// whole gap depends on one quantity alone, which accuses a block of these that is not named.
     bool is_contested = false;

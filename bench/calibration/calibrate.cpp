@@ -57,6 +57,7 @@ gap::Support support_of(const Json& json, double gap_after) {
             .halves_apart = json.at("halves_apart"),
             .is_at_bound = json.at("at_bound"),
             .leaves_something = json.at("leaves_something"),
+            .leaves_dependence = json.at("leaves_dependence"),
             .is_contested = json.at("contested")};
 }
 

@@ -262,6 +262,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
             const double offset_px =
                 weights > 0.0 ? std::sqrt((weighted_strayed / weights + weighted_platform) / weights)
                               : slope.norm() * hidden_mm;
+            sighting.slope_px_per_mm = slope.norm();
             sighting.mirror = mirror_of(slope);
             sighting.floors_px = CornerValues::Constant(noise.corner_px);
             sighting.floors_px[0] =

@@ -52,6 +52,7 @@ struct TagSighting {
     /// Corners of its tag, on the plate.
     std::array<Eigen::Vector2d, 4> corners_mm{centre_mm, centre_mm, centre_mm, centre_mm};
     CornerValues corners_px = CornerValues::Zero();
+    double slope_px_per_mm = 0.0;                   ///< |d corners / ds|
     CornerValues mirror = CornerValues::Zero();     ///< normal of the reflection
     CornerValues floors_px = CornerValues::Zero();  ///< floors of the reflected values
     double offset_weight = 0.0;                     ///< weight in the estimate of the offset, 1/px^2

@@ -2,6 +2,7 @@
 #include "gap/residuals/accusation.h"
 
 #include "gap/links/tag_sight.h"
+#include "gap/residuals/false_readings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -118,20 +119,19 @@ Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, co
     pattern.tag_along = std::sqrt(along / count);
     if (count_at_rest > 0.0) pattern.tag_at_rest = std::sqrt(along_at_rest / count_at_rest);
     pattern.tag_across = std::sqrt(across / (count * (corner_values - 1)));
+    pattern.displacing = sensor_that_displaces_tags(evidence, errors);
     return pattern;
 }
 
 std::optional<Signal> false_sensor(const Pattern& pattern) {
-    constexpr double beyond_smoothing =
-        2.0;  // floors; a wrong actuator's model leaves the tags at 1.5 at most
-    if (!is_displacement(pattern)) return {};
-    if (off(pattern, Signal::encoder) && tags_are_further_off(pattern)) return Signal::encoder;
-    if (off(pattern, Signal::encoder) || !off(pattern, Signal::hall)) return {};
-    return pattern.tag_along > beyond_smoothing ? std::optional(Signal::hall) : std::nullopt;
+    const bool is_false =
+        pattern.displacing && is_displacement(pattern) && off(pattern, *pattern.displacing);
+    return is_false ? pattern.displacing : std::nullopt;
 }
 
 bool tags_are_innocent(const Pattern& pattern) {
-    return is_displacement(pattern) && off(pattern, Signal::encoder) && !tags_are_further_off(pattern);
+    return is_displacement(pattern) && off(pattern, Signal::encoder) && !false_sensor(pattern) &&
+           !tags_are_further_off(pattern);
 }
 
 std::string_view accused_block(const Pattern& pattern, Signal signal, std::optional<Dependence> dependence) {

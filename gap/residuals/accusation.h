@@ -24,11 +24,14 @@ struct Pattern {
     double tag_along = 0.0;    ///< of the component of the tags' corners along the stage's motion
     double tag_across = 0.0;   ///< of the corners' other seven components
     double tag_at_rest = 0.0;  ///< along the motion, in windows in which both stages stand
+    /// The sensor whose false readings displace the tags (gap/residuals/false_readings.h).
+    std::optional<Signal> displacing = {};
 };
 
 Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, const Errors& errors);
 
-/// The sensor, encoder or hall, whose false reading would cause the pattern.
+/// The sensor, encoder or hall, whose false reading causes the pattern: it is off its floor, and displaces
+/// tags that are off along the stage's motion and hardly elsewhere.
 std::optional<Signal> false_sensor(const Pattern& pattern);
 
 /// Whether the tags' errors come only from the carriage's position between two counts.

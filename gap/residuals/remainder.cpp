@@ -189,17 +189,28 @@ LeftOver::LeftOver(const Evidence& evidence, const CrossFit& explained)
     });
 }
 
-std::optional<Remainder> LeftOver::remainder(double tail, const SignalLimits& matters) const {
-    for (const SignalGap& gap : gaps_) {
-        if (!is_off(pattern_, gap) || !does_matter(gap, matters)) continue;
-        // Where a gap is beyond doubt, what it likely depends on says more than nothing.
-        const bool is_clear = pattern_.floors[index_of(gap.signal)] >= clear_floors;
-        const std::array tails{tail, likely * tail};
-        const Dependences found =
-            dependences(evidence_, gap.signal, errors_, half_, std::span(tails).first(is_clear ? 2 : 1));
-        if (found.groups.empty() && !is_clear) continue;
-        return remainder_of_signal(gap, pattern_, found);
-    }
+std::optional<Remainder> LeftOver::remainder_of(const SignalGap& gap, double tail,
+                                                const SignalLimits& matters) const {
+    if (!is_off(pattern_, gap) || !does_matter(gap, matters)) return {};
+    // Where a gap is beyond doubt, what it likely depends on says more than nothing.
+    const bool is_clear = pattern_.floors[index_of(gap.signal)] >= clear_floors;
+    const std::array tails{tail, likely * tail};
+    const Dependences found =
+        dependences(evidence_, gap.signal, errors_, half_, std::span(tails).first(is_clear ? 2 : 1));
+    if (found.groups.empty() && !is_clear) return {};
+    return remainder_of_signal(gap, pattern_, found);
+}
+
+std::vector<Remainder> LeftOver::remainders(double tail, const SignalLimits& matters) const {
+    std::vector<Remainder> all;
+    for (const SignalGap& gap : gaps_)
+        if (auto remainder = remainder_of(gap, tail, matters)) all.push_back(*std::move(remainder));
+    return all;
+}
+
+std::optional<Remainder> LeftOver::first_remainder(double tail, const SignalLimits& matters) const {
+    for (const SignalGap& gap : gaps_)
+        if (auto remainder = remainder_of(gap, tail, matters)) return remainder;
     return {};
 }
 
@@ -211,7 +222,7 @@ SignalFlags LeftOver::signals() const {
 
 std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail,
                                       const SignalLimits& matters) {
-    return LeftOver(evidence, explained).remainder(tail, matters);
+    return LeftOver(evidence, explained).first_remainder(tail, matters);
 }
 
 std::optional<Remainder> remainder_at_sight(std::span<const SignalGap> gaps, const SignalLimits& matters) {

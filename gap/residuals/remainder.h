@@ -19,15 +19,22 @@ class LeftOver {
     LeftOver(const Evidence& evidence, const CrossFit& explained);
 
     /// Fits a flexible model of each signal's remaining errors (surrogate.h) to one half of the windows and
-    /// tests it on the other. Empty where it predicts nothing significantly, unless more than 1.25 floors
-    /// remain: then the cause depends on a quantity that is not tried.
+    /// tests it on the other: signals of whose errors it predicts something significantly, and those with more
+    /// than 1.25 floors, whose cause then depends on a quantity that is not tried. Those of which the errors
+    /// say most come first.
     /// @param matters  signals whose discrepancy is no larger are ignored
-    std::optional<Remainder> remainder(double tail, const SignalLimits& matters = {}) const;
+    std::vector<Remainder> remainders(double tail, const SignalLimits& matters = {}) const;
+
+    /// The first of them, without a look at the others.
+    std::optional<Remainder> first_remainder(double tail, const SignalLimits& matters = {}) const;
 
     /// Signals that are off their floors, but for tags that only show how wrong the carriage's model is.
     SignalFlags signals() const;
 
   private:
+    std::optional<Remainder> remainder_of(const SignalGap& gap, double tail,
+                                          const SignalLimits& matters) const;
+
     const Evidence& evidence_;
     std::vector<std::uint8_t> half_;
     Errors errors_;
@@ -35,7 +42,7 @@ class LeftOver {
     Pattern pattern_;
 };
 
-/// LeftOver::remainder(), where nothing else is asked.
+/// LeftOver::first_remainder(), where nothing else is asked.
 std::optional<Remainder> remainder_of(const Evidence& evidence, const CrossFit& explained, double tail,
                                       const SignalLimits& matters = {});
 

@@ -24,6 +24,7 @@ inline constexpr std::array calibrated_coefficients{
     0.364,  // log_names
     0.252,  // halves_agree
     2.095,  // leaves_nothing
+    0.000,  // leaves_no_dependence
 };
 
 }  // namespace fidservo::gap

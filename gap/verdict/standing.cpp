@@ -117,7 +117,8 @@ Features features_of(const Support& support) {
             -std::log(std::max(support.gap_left, least_share)),
             std::log(support.names),
             -std::log(std::max(support.halves_apart, least_apart)),
-            support.leaves_something ? 0.0 : 1.0};
+            support.leaves_something ? 0.0 : 1.0,
+            support.leaves_dependence ? 0.0 : 1.0};
 }
 
 double logistic_probability(const Features& features, double offset, const Features& coefficients) {
@@ -138,7 +139,7 @@ double calibrated_probability(const Support& support) {
 }
 
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
-                              const std::vector<ChoiceWeights>& weights, const SignalFlags& left,
+                              const std::vector<ChoiceWeights>& weights, const SignalsLeft& left,
                               const std::optional<Remainder>& whole) {
     const std::vector<Window>& windows = evidence.windows();
     const CrossFit& explained = selection.steps.back();
@@ -162,7 +163,8 @@ std::vector<Support> supports(const Evidence& evidence, const Selection& selecti
                        .names = static_cast<double>(selection.choices.size()),
                        .halves_apart = halves_apart(*choice.candidate, explained),
                        .is_at_bound = is_at_bound(*choice.candidate, explained),
-                       .leaves_something = meet(left, teachers),
+                       .leaves_something = meet(left.off, teachers),
+                       .leaves_dependence = meet(left.dependent, teachers),
                        .is_contested = is_contested(whole, selection, choice)});
     }
     return all;
@@ -185,6 +187,7 @@ Support support_alone(const Evidence& evidence, const Trial& trial, const CrossF
             .halves_apart = halves_apart(*trial.candidate, fitted),
             .is_at_bound = is_at_bound(*trial.candidate, fitted),
             .leaves_something = meet(left, teachers),
+            .leaves_dependence = meet(left, teachers),
             .is_contested = false};
 }
 

@@ -20,9 +20,10 @@
 namespace fidservo::gap {
 
 /// The regression's features, by name.
-inline constexpr std::array<std::string_view, 8> feature_names{
+inline constexpr std::array<std::string_view, 9> feature_names{
     "weight_logit", "log_discrepancy", "log_own_discrepancy", "log_gain",
-    "log_gap_left", "log_names",       "halves_agree",        "leaves_nothing"};
+    "log_gap_left", "log_names",       "halves_agree",        "leaves_nothing",
+    "leaves_no_dependence"};
 using Features = std::array<double, feature_names.size()>;
 
 /// The features x_k of a named effect, each larger the stronger the evidence; logarithms are natural:
@@ -35,6 +36,7 @@ using Features = std::array<double, feature_names.size()>;
 ///   log_names      log of the number of named effects: many small ones less often stand in for another one
 ///   halves_agree   -log of the relative difference of its size between the halves, 1e-3 at least
 ///   leaves_nothing  1 if the signals that determine it come to their floors, else 0
+///   leaves_no_dependence  0 if it is found on what the errors depend that remain in one of these, else 1
 Features features_of(const Support& support);
 
 /// The probability by a regression with this offset and these coefficients.
@@ -50,11 +52,17 @@ bool has_a_rival(const Support& support);
 /// rare for the regression to learn from them.
 double calibrated_probability(const Support& support);
 
+/// Signals in which an explanation leaves something.
+struct SignalsLeft {
+    SignalFlags off{};        ///< off their floors
+    SignalFlags dependent{};  ///< those of whose errors it was found on what they depend, or was not asked
+};
+
 /// The evidence for each choice of a selection.
-/// @param left   signals that are off their floors under the whole explanation
+/// @param left   by the whole explanation
 /// @param whole  what the gap depends on where nothing is named; empty where that is unknown
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
-                              const std::vector<ChoiceWeights>& weights, const SignalFlags& left,
+                              const std::vector<ChoiceWeights>& weights, const SignalsLeft& left,
                               const std::optional<Remainder>& whole);
 
 /// The evidence for an effect that was tried alone, as if it were the only name.

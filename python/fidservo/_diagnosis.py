@@ -60,6 +60,7 @@ class Support:
     halves_apart: float
     at_bound: bool
     leaves_something: bool
+    leaves_dependence: bool
     contested: bool
 
 

@@ -117,6 +117,7 @@ nlohmann::ordered_json support_json(const gap::Support& support) {
             {"halves_apart", number(support.halves_apart)},
             {"at_bound", support.is_at_bound},
             {"leaves_something", support.leaves_something},
+            {"leaves_dependence", support.leaves_dependence},
             {"contested", support.is_contested}};
 }
 

@@ -11,8 +11,9 @@ namespace {
 using namespace gap;
 
 /// Floors of encoder, Hall reading and tags, and of the tags' motion along and across.
-Pattern pattern(double encoder, double hall, double tag, double along, double across) {
-    Pattern pattern{.floors = {}, .tag_along = along, .tag_across = across};
+Pattern pattern(double encoder, double hall, double tag, double along, double across,
+                std::optional<Signal> displacing = {}) {
+    Pattern pattern{.floors = {}, .tag_along = along, .tag_across = across, .displacing = displacing};
     pattern.floors[index_of(Signal::encoder)] = encoder;
     pattern.floors[index_of(Signal::hall)] = hall;
     pattern.floors[index_of(Signal::tag)] = tag;
@@ -20,12 +21,20 @@ Pattern pattern(double encoder, double hall, double tag, double along, double ac
 }
 
 TEST(Accusation, SensorThatReadsFalsely_SpoilsTheTagsAsWell) {
-    const Pattern hall = pattern(0.4, 30.0, 30.0, 85.0, 1.0);
+    const Pattern hall = pattern(0.4, 30.0, 30.0, 85.0, 1.0, Signal::hall);
     EXPECT_EQ(false_sensor(hall), Signal::hall);
     EXPECT_EQ(accused_block(hall, Signal::hall, Dependence::contraction), "micro.hall");
-    const Pattern encoder = pattern(11.0, 1.0, 1900.0, 5300.0, 1.0);
+    const Pattern encoder = pattern(11.0, 1.0, 1900.0, 5300.0, 1.0, Signal::encoder);
     EXPECT_EQ(false_sensor(encoder), Signal::encoder);
     EXPECT_EQ(accused_block(encoder, Signal::encoder, Dependence::command), "macro.encoder");
+}
+
+TEST(Accusation, HallReadingThatDisplacesTags_IsFalse_ThoughTheCarriageIsOffAsWell) {
+    const Pattern both = pattern(2.4, 39.0, 41.0, 116.0, 1.0, Signal::hall);
+    EXPECT_EQ(false_sensor(both), Signal::hall);
+    EXPECT_FALSE(tags_are_innocent(both));
+    EXPECT_EQ(accused_block(both, Signal::hall, Dependence::platform_place), "micro.hall");
+    EXPECT_EQ(accused_block(both, Signal::encoder, Dependence::velocity), "macro.friction");
 }
 
 TEST(Accusation, ActuatorSpoilsItsOwnPredictionOnly) {
@@ -55,7 +64,8 @@ TEST(Accusation, CarriageThatIsMisplacedBetweenCounts_IsNoFalseEncoderEither_Whe
 
 TEST(Accusation, PeriodInTheReading_AccusesTheEncoder_IfTheTagsSaySoOrThereAreNone) {
     const Dependence ripple = Dependence::reading_period;
-    EXPECT_EQ(accused_block(pattern(3.4, 1.0, 5.2, 14.7, 1.0), Signal::encoder, ripple), "macro.encoder");
+    EXPECT_EQ(accused_block(pattern(3.4, 1.0, 5.2, 14.7, 1.0, Signal::encoder), Signal::encoder, ripple),
+              "macro.encoder");
     EXPECT_EQ(accused_block(pattern(3.4, 1.0, 1.0, 1.0, 1.0), Signal::encoder, ripple), "macro.mechanics");
     EXPECT_EQ(accused_block(pattern(3.4, 0.0, 0.0, 0.0, 0.0), Signal::encoder, ripple), "macro.encoder");
 }

@@ -48,6 +48,7 @@ TEST(Standing, ProbabilityNeverFallsWithWhatSpeaksForAName) {
     EXPECT_GE(at([](Support& support) { support.halves_apart = 0.01; }), before);
     EXPECT_DOUBLE_EQ(at([](Support& support) { support.is_at_bound = true; }), 0.5 * before);
     EXPECT_LE(at([](Support& support) { support.leaves_something = true; }), before);
+    EXPECT_LE(at([](Support& support) { support.leaves_dependence = true; }), before);
     EXPECT_DOUBLE_EQ(at([](Support& support) { support.is_contested = true; }), 0.5 * before);
 }
 
