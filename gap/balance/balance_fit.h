@@ -6,8 +6,9 @@
 
 namespace fidservo::gap {
 
-/// Fits effects' settings, in addition to a base hypothesis, to the balance of forces, with residuals in
-/// standard deviations under the settings themselves. Its arguments must outlive it.
+/// Fits effects' settings, in addition to a base hypothesis, to the balance of forces, with residuals
+/// over ForceBalance::deviations standard deviations under the settings themselves. Its arguments must
+/// outlive it.
 class BalanceFit {
   public:
     /// @param wanted  the windows to be used, as in gap/fit/score.h

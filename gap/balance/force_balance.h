@@ -36,8 +36,8 @@ class ForceBalance {
     /// floor under the rig file.
     Errors excess(const Hypothesis& hypothesis) const;
 
-    /// The same in standard deviations under the hypothesis, whose moving mass multiplies the noise of the
-    /// acceleration.
+    /// The same over `deviations` standard deviations under the hypothesis, whose moving mass multiplies the
+    /// noise of the acceleration.
     Errors excess_in_own_deviations(const Hypothesis& hypothesis) const;
 
     /// Length of the rail, mm, on which the carriage slides.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -36,15 +37,19 @@ double start_loss(std::span<const double> error_count, const StartCorrection& do
 
 StartCorrection estimate_start(std::span<const double> error_count, const StartCorrection& done,
                                double ticks_per_tau) {
-    constexpr int most_steps = 12;
+    constexpr int most_steps = 30;
     constexpr double enough_count = 1e-4;
     const double weight = 1.0 / (noise_count * noise_count);
     const double decay = std::exp(-1.0 / ticks_per_tau);
-    StartCorrection found = done;
+    StartCorrection best = done, tried = done;
+    double least = std::numeric_limits<double>::infinity();
+    Eigen::Vector2d change = Eigen::Vector2d::Zero();
     for (int step = 0; step < most_steps; ++step) {
-        const double place = found.place_count - done.place_count;
-        const double coast = found.coast_count - done.coast_count;
-        Eigen::Vector2d slope(place_weight * found.place_count, coast_weight * found.coast_count);
+        const double place = tried.place_count - done.place_count;
+        const double coast = tried.coast_count - done.coast_count;
+        const Eigen::Vector2d prior(place_weight * tried.place_count, coast_weight * tried.coast_count);
+        double loss = 0.5 * prior.dot(Eigen::Vector2d(tried.place_count, tried.coast_count));
+        Eigen::Vector2d slope = prior;
         Eigen::Matrix2d curvature = Eigen::Vector2d(place_weight, coast_weight).asDiagonal();
         double left = 1.0;
         for (const double error : error_count) {
@@ -52,18 +57,24 @@ StartCorrection estimate_start(std::span<const double> error_count, const StartC
             left *= decay;
             const double excess = beyond_rounding(error + place + covered * coast);
             if (excess == 0.0) continue;
+            loss += 0.5 * weight * excess * excess;
             slope += weight * excess * Eigen::Vector2d(1.0, covered);
             curvature(0, 0) += weight;
             curvature(0, 1) += weight * covered;
             curvature(1, 1) += weight * covered * covered;
         }
-        curvature(1, 0) = curvature(0, 1);
-        const Eigen::Vector2d change = curvature.inverse() * slope;
-        found.place_count -= change.x();
-        found.coast_count -= change.y();
+        if (loss < least) {
+            least = loss;
+            best = tried;
+            curvature(1, 0) = curvature(0, 1);
+            change = curvature.inverse() * slope;
+        } else {
+            change *= 0.5;
+        }
         if (change.cwiseAbs().maxCoeff() < enough_count) break;
+        tried = {best.place_count - change.x(), best.coast_count - change.y()};
     }
-    return found;
+    return best;
 }
 
 }  // namespace fidservo::gap

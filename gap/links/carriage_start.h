@@ -13,7 +13,9 @@ struct StartCorrection {
     double coast_count = 0.0;
 };
 
-/// The best correction, by Newton's method on start_loss().
+/// The best correction, by Newton's method on start_loss(). This is convex, but errors count from half a
+/// count on, so that a step may leave the piece on which it was computed; it is halved until the loss is
+/// less.
 /// @param error_count  prediction minus count, tick by tick, with the correction `done` applied
 /// @param ticks_per_tau  time constant of the velocity's decay, in ticks
 StartCorrection estimate_start(std::span<const double> error_count, const StartCorrection& done,
