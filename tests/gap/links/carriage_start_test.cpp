@@ -37,10 +37,10 @@ TEST(CarriageStart, PredictionThatRoundsToEveryCount_IsNotCorrected) {
     EXPECT_DOUBLE_EQ(found.coast_count, 0.0);
 }
 
-TEST(CarriageStart, PlaceThatIsOff_IsShiftedToTheEdgeOfTheCount) {
+TEST(CarriageStart, PlaceThatIsOff_IsShiftedUntilItRoundsToTheCounts) {
     const std::vector<double> errors = errors_of(3.0, 0.0);
     for (const double left : corrected(errors, estimate_start(errors, {}, ticks_per_tau)))
-        EXPECT_NEAR(left, 0.5, 0.15);
+        EXPECT_LT(std::abs(left), 0.6);
 }
 
 TEST(CarriageStart, VelocityThatIsOff_IsCorrectedByTheWayOverWhichItDecays) {
