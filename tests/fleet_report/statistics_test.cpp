@@ -113,6 +113,55 @@ TEST(ChangePoints_, LongTimeWithoutAName_CountsAsOneDiagnosis) {
     EXPECT_TRUE(find_changes(points, {0.0, 100.0}, alarm_bound(50, 52, 0.05)).empty());
 }
 
+/// After the repair no diagnosis names the quantity any more: the alarm rests on the second of these.
+TEST(ChangePoints_, RepairAfterWhichNothingIsNamed_IsFoundWhileThatLasts) {
+    std::vector<Point> points = weekly({7.5, 7.6, 7.4, 7.5, 7.55, 7.45, 7.5, 7.6}, 0.1);
+    points.push_back({8.0, 0.0, 0.1, 0.458});
+    EXPECT_TRUE(find_changes(points, {0.0, 100.0}, alarm_bound(50, 52, 0.05)).empty())
+        << "one diagnosis alone is no alarm";
+    for (int week = 9; week < 12; ++week) points.push_back({static_cast<double>(week), 0.0, 0.1, 0.458});
+    const auto changes = find_changes(points, {0.0, 100.0}, alarm_bound(50, 52, 0.05));
+    ASSERT_EQ(changes.size(), 1U);
+    EXPECT_EQ(changes[0].first, 8U);
+    EXPECT_EQ(changes[0].found, 9U);
+    EXPECT_LT(changes[0].size, -6.5);
+    const Level now = level_now(points, {0.0, 100.0}, changes);
+    EXPECT_DOUBLE_EQ(now.value, 0.0);
+    EXPECT_DOUBLE_EQ(now.limit, 0.458);
+}
+
+/// Of many diagnoses that see nothing all count in the level, though they are one in an alarm.
+TEST(ChangePoints_, OneBadWeekOfMany_HardlyMovesTheLevel) {
+    std::vector<Point> points;
+    for (int week = 0; week < 52; ++week) points.push_back({static_cast<double>(week), 0.0, 0.1, 0.458});
+    points[20] = {20.0, 6.0, 0.1};
+    const Scatter scatter{0.18, 100.0};
+    const auto changes = find_changes(points, scatter, alarm_bound(50, 52, 0.05));
+    EXPECT_TRUE(changes.empty());
+    EXPECT_LT(level_now(points, scatter, changes).value, 0.7);
+}
+
+/// What is named is a selection: the level of those below the limit is known by how often they are named.
+TEST(ChangePoints_, LevelBelowTheLimit_IsNotBiasedByWhatIsNamed) {
+    constexpr unsigned seed = 3;
+    std::mt19937_64 generator(seed);
+    std::normal_distribution<double> normal;
+    const Scatter scatter{0.18, 1e5};
+    const double truth = 0.30, std = 0.1;
+    double sum = 0.0;
+    constexpr int units = 40;
+    for (int unit = 0; unit < units; ++unit) {
+        std::vector<Point> points;
+        for (int week = 0; week < 52; ++week) {
+            const double value = truth + std::hypot(std, scatter.std) * normal(generator);
+            points.push_back(std::abs(value) < 0.458 ? Point{static_cast<double>(week), 0.0, std, 0.458}
+                                                     : Point{static_cast<double>(week), value, std});
+        }
+        sum += level_now(points, scatter, {}).value;
+    }
+    EXPECT_NEAR(sum / units, truth, 0.02) << "seed " << seed;
+}
+
 TEST(ChangePoints_, AllLooksOfManyYears_RaiseNoMoreAlarmsThanTheBoundAllows) {
     constexpr unsigned seed = 17;
     std::mt19937_64 generator(seed);
@@ -126,6 +175,38 @@ TEST(ChangePoints_, AllLooksOfManyYears_RaiseNoMoreAlarmsThanTheBoundAllows) {
         alarms += find_changes(weekly(values, 1.0), {0.0, 1e5}, 200.0).empty() ? 0 : 1;
     }
     EXPECT_LE(alarms, units * looks / 200 + 3 * std::sqrt(units * looks / 200.0)) << "seed " << seed;
+}
+
+/// While three are off, the spread of units explains each of them.
+TEST(Attribution_, SeveralOddUnits_DoNotHideEachOther) {
+    for (const std::size_t odd : {1U, 2U, 3U, 5U}) {
+        std::vector<Level> levels(50, Level{0.0, 0.1});
+        for (std::size_t u = 0; u < levels.size(); ++u)
+            levels[u].value = 0.3 * std::sin(static_cast<double>(7 * u + 1));
+        for (std::size_t u = 0; u < odd; ++u) levels[9 * u].value += u % 2 == 0 ? 10.0 : -10.0;
+        const Attribution found = attribute(levels, {}, 50);
+        ASSERT_EQ(found.shares.size(), odd);
+        for (const Share& share : found.shares) {
+            EXPECT_EQ(share.whose, Whose::unit);
+            EXPECT_EQ(share.which % 9, 0U);
+            EXPECT_NEAR(std::abs(share.size.value), 10.0, 0.7);
+            EXPECT_GT(share.log_odds, std::log(19.0));
+        }
+    }
+}
+
+TEST(Attribution_, UnitsThatDifferAnyway_HaveNoShares) {
+    constexpr unsigned seed = 8;
+    std::mt19937_64 generator(seed);
+    std::normal_distribution<double> normal;
+    int with_shares = 0;
+    constexpr int fleets = 100;
+    for (int fleet = 0; fleet < fleets; ++fleet) {
+        std::vector<Level> levels(30);
+        for (Level& level : levels) level = {2.0 * normal(generator), 0.1};
+        with_shares += attribute(levels, {}, 50).shares.empty() ? 0 : 1;
+    }
+    EXPECT_LE(with_shares, fleets / 19) << "seed " << seed;
 }
 
 TEST(Attribution_, AllAtOneValue_IsTheModels) {

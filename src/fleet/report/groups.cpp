@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -39,12 +40,36 @@ struct OneChange {
     Dates dates;
 };
 
-bool may_be_one(const OneChange& a, const OneChange& b) {
-    const auto allows = [](const Dates& dates, std::int64_t time_s) {
-        return dates.earliest_s < time_s && time_s <= dates.latest_s;
-    };
-    return a.kind == b.kind && a.up == b.up && allows(a.dates, b.dates.likeliest_s) &&
-           allows(b.dates, a.dates.likeliest_s);
+/// The time that two intervals share; empty where that is less than half of the shorter one. Units that are
+/// recorded one after the other have intervals that begin and end a little apart.
+std::optional<Dates> shared(const Dates& a, const Dates& b) {
+    Dates both{std::max(a.earliest_s, b.earliest_s), a.likeliest_s, std::min(a.latest_s, b.latest_s)};
+    const std::int64_t shorter = std::min(a.latest_s - a.earliest_s, b.latest_s - b.earliest_s);
+    if (2 * (both.latest_s - both.earliest_s) < shorter) return {};
+    return both;
+}
+
+/// Changes of as many units that may be one with the first of them: places in `left`, and the time that all
+/// their intervals share.
+struct Together {
+    std::vector<std::size_t> places;
+    Dates since;
+};
+
+Together together_with(std::size_t seed, const std::vector<OneChange>& left) {
+    Together found{{seed}, left[seed].dates};
+    std::set<std::size_t> units{left[seed].unit};
+    for (std::size_t k = 0; k < left.size(); ++k) {
+        if (left[k].kind != left[seed].kind || left[k].up != left[seed].up || units.contains(left[k].unit))
+            continue;
+        const auto since = shared(found.since, left[k].dates);
+        if (!since) continue;
+        found.since = *since;
+        found.places.push_back(k);
+        units.insert(left[k].unit);
+    }
+    std::ranges::sort(found.places);
+    return found;
 }
 
 }  // namespace
@@ -86,27 +111,22 @@ std::vector<ChangeCluster> clusters_of(const std::vector<FleetResult>& results,
         }
     std::vector<ChangeCluster> clusters;
     while (!left.empty()) {
-        std::vector<std::size_t> best;
-        for (const OneChange& seed : left) {
-            std::vector<std::size_t> with_it;
-            std::set<std::size_t> seen;
-            for (std::size_t k = 0; k < left.size(); ++k)
-                if (may_be_one(seed, left[k]) && seen.insert(left[k].unit).second) with_it.push_back(k);
-            if (with_it.size() > best.size()) best = std::move(with_it);
-        }
-        const OneChange& first = left[best.front()];
-        ChangeCluster cluster{first.kind, {}, {}, first.dates};
-        std::map<std::int64_t, int> votes;
-        for (const std::size_t k : best) {
+        Together best;
+        for (std::size_t seed = 0; seed < left.size(); ++seed)
+            if (Together found = together_with(seed, left); found.places.size() > best.places.size())
+                best = std::move(found);
+        ChangeCluster cluster{left[best.places.front()].kind, {}, {}, best.since};
+        std::map<std::int64_t, int> votes{{best.since.latest_s, 0}};
+        for (const std::size_t k : best.places) {
             cluster.units.push_back(left[k].unit);
             cluster.changes.push_back(left[k].change);
-            votes[left[k].dates.likeliest_s] += 1;
-            cluster.since.earliest_s = std::max(cluster.since.earliest_s, left[k].dates.earliest_s);
-            cluster.since.latest_s = std::min(cluster.since.latest_s, left[k].dates.latest_s);
+            const std::int64_t likeliest_s = left[k].dates.likeliest_s;
+            if (best.since.earliest_s < likeliest_s && likeliest_s <= best.since.latest_s)
+                votes[likeliest_s] += 1;
         }
         cluster.since.likeliest_s =
             std::ranges::max_element(votes, {}, [](const auto& vote) { return vote.second; })->first;
-        for (auto k = best.rbegin(); k != best.rend(); ++k)
+        for (auto k = best.places.rbegin(); k != best.places.rend(); ++k)
             left.erase(left.begin() + static_cast<std::ptrdiff_t>(*k));
         clusters.push_back(std::move(cluster));
     }

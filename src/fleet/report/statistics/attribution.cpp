@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <optional>
+#include <utility>
 
 #include <Eigen/Dense>
 
@@ -177,58 +177,99 @@ class Explanation {
     std::size_t likeliest_ = 0;
 };
 
-/// The set that would be added next; none where the odds are less than 19 to 1.
-struct NextShare {
+/// A set that has a share, and the law of the share's size under which it is likeliest.
+struct TakenSet {
     const CandidateSet* set;
     double law;
-    Share share;
 };
 
-std::optional<NextShare> next_share(const Explanation& explanation, const std::vector<CandidateSet>& sets) {
-    const double without = explanation.log_likelihood();
-    const CandidateSet* best = nullptr;
-    double best_law = 0.0, best_odds = -1e300;
-    Share share;
+Explanation explanation_by(std::span<const Level> levels, std::span<const TakenSet> taken) {
+    Explanation explanation(levels);
+    for (const TakenSet& one : taken) explanation.take(*one.set, one.law);
+    return explanation;
+}
+
+/// The set that is likeliest to have a share beside an explanation, with the natural log odds for it.
+std::pair<TakenSet, double> likeliest_beside(const Explanation& explanation,
+                                             const std::vector<CandidateSet>& sets) {
+    std::pair<TakenSet, double> best{{nullptr, 0.0}, -1e300};
+    for (const CandidateSet& set : sets) {
+        const auto [log_likelihood, law] = explanation.log_likelihood_with(set);
+        const double odds = log_likelihood - explanation.log_likelihood() + set.log_prior_odds;
+        if (odds > best.second) best = {{&set, law}, odds};
+    }
+    return best;
+}
+
+/// The next set, or the next few that only together have odds of 19 to 1: while several units are off, and
+/// none of them has a share, the spread explains them all. Empty where no few of them have.
+std::vector<TakenSet> next_sets(Explanation explanation, const std::vector<CandidateSet>& sets,
+                                std::size_t most) {
+    std::vector<TakenSet> next;
+    double log_odds = 0.0;
+    while (next.size() < most) {
+        const auto [set, odds] = likeliest_beside(explanation, sets);
+        next.push_back(set);
+        log_odds += odds;
+        if (log_odds >= least_log_odds) return next;
+        explanation.take(*set.set, set.law);
+    }
+    return {};
+}
+
+/// A set's share, judged beside an explanation without it.
+Share share_beside(const Explanation& explanation, const std::vector<CandidateSet>& sets,
+                   const CandidateSet& of) {
+    Share share{.whose = of.whose, .which = of.which, .size = {}};
     share.log_all = share.log_group = share.log_unit = -1e300;
     std::vector<double> all_odds{0.0};
     for (const CandidateSet& set : sets) {
-        const auto [log_likelihood, law] = explanation.log_likelihood_with(set);
-        const double ratio = log_likelihood - without, odds = ratio + set.log_prior_odds;
+        const double ratio = explanation.log_likelihood_with(set).first - explanation.log_likelihood();
         double& of_kind = set.whose == Whose::all     ? share.log_all
                           : set.whose == Whose::group ? share.log_group
                                                       : share.log_unit;
         of_kind = std::max(of_kind, ratio);
-        all_odds.push_back(odds);
-        if (odds <= best_odds) continue;
-        best = &set;
-        best_law = law;
-        best_odds = odds;
+        all_odds.push_back(ratio + set.log_prior_odds);
+        if (&set == &of) share.log_odds = all_odds.back();
     }
-    if (best == nullptr || best_odds < least_log_odds) return {};
-    share.whose = best->whose;
-    share.which = best->which;
-    share.log_odds = best_odds;
-    share.probability = std::exp(best_odds - log_of_sum(all_odds));
-    return NextShare{best, best_law, share};
+    share.probability = std::exp(share.log_odds - log_of_sum(all_odds));
+    return share;
+}
+
+/// Takes away what the others explain as well, the least likely first, until all that is left has odds of 19
+/// to 1.
+std::vector<Share> pruned(std::span<const Level> levels, const std::vector<CandidateSet>& sets,
+                          std::vector<TakenSet>& taken) {
+    while (true) {
+        std::vector<Share> shares;
+        for (std::size_t j = 0; j < taken.size(); ++j) {
+            std::vector<TakenSet> others = taken;
+            others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
+            shares.push_back(share_beside(explanation_by(levels, others), sets, *taken[j].set));
+        }
+        const auto least = std::ranges::min_element(shares, {}, &Share::log_odds);
+        if (least == shares.end() || least->log_odds >= least_log_odds) return shares;
+        taken.erase(taken.begin() + (least - shares.begin()));
+    }
 }
 
 }  // namespace
 
 Attribution attribute(std::span<const Level> levels, std::span<const std::vector<std::size_t>> groups,
                       double quantities) {
-    constexpr std::size_t least_units = 3;
+    constexpr std::size_t least_units = 3, most_at_once = 8;
     if (levels.size() < least_units) return {};
     const std::vector<CandidateSet> sets = candidate_sets(levels.size(), groups, quantities);
-    Explanation explanation(levels);
-    Attribution attribution;
-    while (attribution.shares.size() < most_shares) {
-        const auto next = next_share(explanation, sets);
-        if (!next) break;
-        explanation.take(*next->set, next->law);
-        attribution.shares.push_back(next->share);
+    std::vector<TakenSet> taken;
+    while (taken.size() < most_shares) {
+        const std::vector<TakenSet> next = next_sets(explanation_by(levels, taken), sets,
+                                                     std::min(most_at_once, levels.size() / least_units));
+        if (next.empty()) break;
+        taken.insert(taken.end(), next.begin(), next.end());
     }
-    for (std::size_t j = 0; j < attribution.shares.size(); ++j)
-        attribution.shares[j].size = explanation.size(j);
+    Attribution attribution{.shares = pruned(levels, sets, taken)};
+    const Explanation explanation = explanation_by(levels, taken);
+    for (std::size_t j = 0; j < taken.size(); ++j) attribution.shares[j].size = explanation.size(j);
     attribution.spread = explanation.spread();
     return attribution;
 }

@@ -11,8 +11,10 @@
 // 1, 4, 16 and 64 floors. So each explanation has a marginal likelihood, in which a share that many units
 // have at the same value is dear once, and many shares of single units are dear each time. Beginning with
 // none, the share with the largest marginal likelihood is added while the odds for it are 19 to 1 or more,
-// prior odds included. These pay for having looked elsewhere: of Q quantities one is off, and with it all
-// units, some group or some unit are equally likely, each group and each unit alike:
+// prior odds included; or the next few, where these have such odds together, as several units that are off
+// hide each other behind the spread. At last, what has no such odds beside the others is taken away. The
+// prior odds pay for having looked elsewhere: of Q quantities one is off, and with it all units, some group
+// or some unit are equally likely, each group and each unit alike:
 //
 //     log odds = log likelihood ratio + log(1 / (3 Q)) - log(number of sets of its kind)
 //
@@ -33,7 +35,7 @@ struct Share {
     Whose whose = Whose::all;
     std::size_t which = 0;     ///< index of the group or unit
     Level size;                ///< m, given the other deviations, floors
-    double log_odds = 0.0;     ///< natural log odds against its absence
+    double log_odds = 0.0;     ///< natural log odds against its absence, beside the other deviations
     double probability = 0.0;  ///< probability among this set, none, and all other sets
     /// Natural logarithms of the likelihood ratios of the best set of each kind in its place, against none.
     double log_all = 0.0, log_group = 0.0, log_unit = 0.0;

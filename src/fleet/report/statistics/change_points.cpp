@@ -13,18 +13,23 @@ namespace {
 
 constexpr std::size_t most_changes = 4;
 
-/// The points that count where many that were not named are one: `index` of each among all.
+/// The points that count where many that were not named are one: of each the index among all of the first
+/// that it stands for, and for how many it stands.
 struct CountedPoints {
     std::vector<Point> points;
-    std::vector<std::size_t> index;
+    std::vector<std::size_t> index, stands_for;
 };
 
 CountedPoints counted(std::span<const Point> all) {
     CountedPoints kept;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (!all[i].named() && i > 0 && !all[i - 1].named()) continue;
+        if (!all[i].named() && i > 0 && !all[i - 1].named()) {
+            kept.stands_for.back() += 1;
+            continue;
+        }
         kept.points.push_back(all[i]);
         kept.index.push_back(i);
+        kept.stands_for.push_back(1);
     }
     return kept;
 }
@@ -43,11 +48,12 @@ bool passes(std::span<const Point> points, const Scatter& scatter, std::span<con
            scan(points, scatter, known).log_sum() >= log_bound;
 }
 
-/// Whether M passes the bound without any one of the diagnoses, too. A point that stands for several is none.
+/// Whether M passes the bound without any one of the diagnoses, too: without any one of the first `count`
+/// points that does not stand for several.
 bool stands_without_any(const CountedPoints& kept, std::size_t count, const Scatter& scatter,
                         std::span<const ChangeColumn> known, double log_bound) {
     for (std::size_t left_out = 0; left_out < count; ++left_out) {
-        if (left_out + 1 < count && kept.index[left_out + 1] > kept.index[left_out] + 1) continue;
+        if (kept.stands_for[left_out] > 1) continue;
         std::vector<Point> fewer(kept.points.begin(),
                                  kept.points.begin() + static_cast<std::ptrdiff_t>(count));
         fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(left_out));
@@ -56,14 +62,18 @@ bool stands_without_any(const CountedPoints& kept, std::size_t count, const Scat
     return true;
 }
 
-/// The place among the counted points at which a further change is found first.
+/// The index among all points with which a further change is found first: where it rests on a diagnosis that
+/// names nothing, with the second of these.
 std::optional<std::size_t> first_alarm(const CountedPoints& kept, const Scatter& scatter,
                                        std::span<const ChangeColumn> known, double log_bound) {
     for (std::size_t count = 2; count <= kept.points.size(); ++count) {
+        const std::size_t last = count - 1;
         const std::span<const Point> until(kept.points.data(), count);
-        if (passes(until, scatter, known, log_bound) &&
-            stands_without_any(kept, count, scatter, known, log_bound))
-            return count - 1;
+        if (!passes(until, scatter, known, log_bound) ||
+            !stands_without_any(kept, count, scatter, known, log_bound))
+            continue;
+        const bool rests_on_last = last < 2 || !passes(until.first(last), scatter, known, log_bound);
+        return kept.index[last] + (rests_on_last && kept.stands_for[last] > 1 ? 1 : 0);
     }
     return {};
 }
@@ -104,7 +114,7 @@ std::vector<Change> find_changes(std::span<const Point> points, const Scatter& s
         const auto alarm = first_alarm(kept, scatter, known, log_bound);
         if (!alarm) break;
         Change change;
-        change.found = kept.index[*alarm];
+        change.found = *alarm;
         date(points, scatter, known, change);
         changes.push_back(change);
         for (std::size_t c = 0; changes.size() > 1 && c < changes.size(); ++c)
@@ -130,8 +140,8 @@ Level level_now(std::span<const Point> points, const Scatter& scatter, std::span
                             points.back().time_weeks);
         begin = std::max(begin, change.first);
     }
-    const std::vector<Point> since = counted(points.subspan(begin)).points;
-    if (since.size() == 1 && !since.front().named())
+    const std::span<const Point> since = points.subspan(begin);
+    if (std::ranges::none_of(since, &Point::named))
         return {0.0, std::hypot(since.front().std, scatter.std), since.front().limit};
     const Moments level = over_level(since, scatter.std * scatter.std).moments();
     return {level.mean, std::sqrt(level.variance)};
