@@ -70,10 +70,10 @@ std::shared_ptr<const diagnose::DesignedNext> write_experiment(const DiagnoseOpt
     evidence.budget()->end_search();
     evidence.budget()->prolong(diagnose::design_limit_s);
     diagnose::SearchProgress progress(diagnose::design_limit_s);
-    const diagnose::DesignRequest request{
-        .file = options.write_experiment,
-        .wire_limit_degC =
-            watchdog_params(evidence.rig(), load_stage_keys(options.rig_file).watchdog).wire_limit_degC};
+    diagnose::DesignRequest request{.file = options.write_experiment, .wire_limit_degC = {}};
+    if (evidence.rig().micro)
+        request.wire_limit_degC =
+            watchdog_params(evidence.rig(), load_stage_keys(options.rig_file).watchdog).wire_limit_degC;
     const diagnose::DesignAnswer answer = diagnose::design_next(
         evidence, diagnosis, request, [&](std::string_view what) { progress.tell(what); });
     if (answer.next) {

@@ -4,6 +4,9 @@
 #include "tests/src/temporary_folder.h"
 
 #include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -55,6 +58,21 @@ TEST(DiagnoseCommand, NothingTied_WritesNoExperiment_AndSaysSo) {
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.out, HasSubstr("note: no experiment was written to next.yaml: nothing is tied"));
     EXPECT_FALSE(std::filesystem::exists(folder / "next.yaml"));
+}
+
+TEST(DiagnoseCommand, RigWithoutAWire_IsAskedForAnExperimentAsWell) {
+    const TemporaryFolder folder;
+    const std::string rig = testing::text_of(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
+    std::ofstream(folder / "carriage.yaml") << rig.substr(0, rig.find("micro:"));
+    ASSERT_EQ(
+        run_program({"simulate", "macro-pulses", "--rig", "carriage.yaml", "--out", "pulses"}, folder.path())
+            .exit_code,
+        0);
+    const ProgramRun run = run_program({"diagnose", "--rig", "carriage.yaml", "--effects", "drive_offset",
+                                        "pulses", "--write-experiment", "next.yaml"},
+                                       folder.path());
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("no experiment was written to next.yaml"));
 }
 
 TEST(SlowDiagnoseCommand, Tie_LeadsToAnExperimentThatSimulateTakes) {
