@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/residuals/accusation.h"
 
+#include "gap/candidates/coupling.h"
+#include "gap/fit/score.h"
 #include "gap/links/tag_sight.h"
 #include "gap/residuals/false_readings.h"
 
@@ -51,7 +53,8 @@ std::string_view view_block(const Pattern& pattern, std::optional<Dependence> de
     if (dependence == Dependence::position || dependence == Dependence::position_share ||
         dependence == Dependence::reading_period)
         return "macro.encoder";
-    if (dependence == Dependence::contraction) return "micro.hall";
+    if (dependence == Dependence::contraction)
+        return pattern.is_hall_right ? "camera.geometry" : "micro.hall";
     if (dependence == Dependence::image_place || dependence == Dependence::image_share)
         return "camera.geometry";
     if (dependence == Dependence::motion_by_row) return "camera.image";
@@ -87,6 +90,19 @@ bool tags_are_further_off(const Pattern& pattern) {
     return pattern.tag_along > between_counts * pattern.floors[index_of(Signal::encoder)];
 }
 
+bool is_hall_right_by_file(const Evidence& evidence) {
+    const std::vector<Window>& windows = evidence.windows();
+    const Wanted wanted = only_of(windows, everything(evidence), only(Signal::hall));
+    const std::vector<double> squares = mean_squares(windows, evidence.errors({}, wanted));
+    double sum = 0.0, expected = 0.0;
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+        if (wanted[w] == 0 || std::isnan(squares[w])) continue;
+        sum += squares[w];
+        expected += windows[w].expected_square;
+    }
+    return expected > 0.0 && sum < least_floors * least_floors * expected;
+}
+
 }  // namespace
 
 Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, const Errors& errors) {
@@ -120,12 +136,12 @@ Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, co
     if (count_at_rest > 0.0) pattern.tag_at_rest = std::sqrt(along_at_rest / count_at_rest);
     pattern.tag_across = std::sqrt(across / (count * (corner_values - 1)));
     pattern.displacing = sensor_that_displaces_tags(evidence, errors);
+    pattern.is_hall_right = is_hall_right_by_file(evidence);
     return pattern;
 }
 
 std::optional<Signal> false_sensor(const Pattern& pattern) {
-    const bool is_false =
-        pattern.displacing && is_displacement(pattern) && off(pattern, *pattern.displacing);
+    const bool is_false = pattern.displacing && is_displacement(pattern) && off(pattern, *pattern.displacing);
     return is_false ? pattern.displacing : std::nullopt;
 }
 

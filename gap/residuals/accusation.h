@@ -26,6 +26,8 @@ struct Pattern {
     double tag_at_rest = 0.0;  ///< along the motion, in windows in which both stages stand
     /// The sensor whose false readings displace the tags (gap/residuals/false_readings.h).
     std::optional<Signal> displacing = {};
+    /// Whether the Hall reading is at its floor under the rig file alone, so that it reads truly.
+    bool is_hall_right = false;
 };
 
 Pattern pattern_of(const Evidence& evidence, std::span<const SignalGap> gaps, const Errors& errors);

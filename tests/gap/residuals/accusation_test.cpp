@@ -78,6 +78,15 @@ TEST(Accusation, TagsAlone_AccuseTheCamera) {
     EXPECT_FALSE(tags_are_innocent(late));
 }
 
+/// A sensor that reads falsely is off in its own prediction, too, unless an effect that is named makes up for
+/// that.
+TEST(Accusation, TagsThatDependOnTheContraction_AccuseTheHallSensor_UnlessItsReadingIsRight) {
+    Pattern view = pattern(0.4, 1.0, 20.0, 57.0, 1.0);
+    EXPECT_EQ(accused_block(view, Signal::tag, Dependence::contraction), "micro.hall");
+    view.is_hall_right = true;
+    EXPECT_EQ(accused_block(view, Signal::tag, Dependence::contraction), "camera.geometry");
+}
+
 TEST(Accusation, TagsThatAreDisplacedWhileNothingMoves_AreNoMatterOfTime) {
     Pattern displaced = pattern(0.4, 1.0, 8.2, 23.0, 1.0);
     displaced.tag_at_rest = 20.0;
