@@ -255,8 +255,8 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
     if (is_view_named) whole = remainder_of(evidence, selection.steps.front(), tail);
     say_what_is_named(evidence, selection, fitted,
                       {.off = left_over.signals(), .dependent = dependent_signals(left)}, whole, diagnosis);
-    diagnosis.unexplained = together(
-        options.matters == SignalLimits{} ? left : left_over.remainders(tail, options.matters));
+    diagnosis.unexplained =
+        together(options.matters == SignalLimits{} ? left : left_over.remainders(tail, options.matters));
     if (are_credible(diagnosis.effects) || selection.choices.empty())
         whole.reset();
     else if (!whole)
@@ -273,7 +273,11 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
         if (!wanting.empty()) diagnosis.unexplained->text += "; " + wanting;
     }
     diagnosis.notes = correlated_parameters(fitted);
-    for (std::string& note : undecided(evidence, tried, selection))
+    const std::vector<const Candidate*> hidden = hidden_candidates(evidence, tried, selection);
+    for (TriedEffect& candidate : diagnosis.candidates)
+        candidate.would_show = std::ranges::none_of(
+            hidden, [&](const Candidate* one) { return one->effect->name == candidate.effect; });
+    for (std::string& note : undecided(evidence, hidden, selection))
         diagnosis.notes.push_back(std::move(note));
     if (left_out > 0)
         diagnosis.notes.push_back(

@@ -97,6 +97,8 @@ struct TriedEffect {
     std::string effect, block;
     double probability;  ///< of the effect's being present, 0 to 1
     double gap_removed;  ///< fraction of the gap that it alone removes
+    /// Whether it would show in these recordings at its typical size; if not, nothing is said of it.
+    bool would_show = true;
 };
 
 /// R.m.s. over all signals of error / floor, on held-out windows.

@@ -138,20 +138,7 @@ bool would_show(const Evidence& evidence, const Candidate& candidate, const Glan
     });
 }
 
-void add_what_would_not_show(const Evidence& evidence, std::span<const Candidate> tried,
-                             const Selection& selection, Lines& lines) {
-    std::vector<const Candidate*> hidden;
-    for (const Candidate& candidate : tried)
-        if (!candidate.is_limit) hidden.push_back(&candidate);
-    for (const std::size_t windows_of_a_signal : {4U, 12U, 48U}) {  // most show in the first few
-        const GlanceAtWindows look = look_at(evidence, selection.steps.front(), windows_of_a_signal);
-        std::vector<std::uint8_t> shows(hidden.size());
-        parallel_for(hidden.size(),
-                     [&](std::size_t k) { shows[k] = would_show(evidence, *hidden[k], look) ? 1 : 0; });
-        std::size_t next = 0;
-        std::erase_if(hidden, [&](const Candidate*) { return shows[next++] != 0; });
-        if (hidden.empty()) return;
-    }
+void add_what_would_not_show(std::span<const Candidate* const> hidden, Lines& lines) {
     std::map<std::string, Lines> by_block;
     for (const Candidate* candidate : hidden)
         by_block[std::string(candidate->effect->block)].emplace_back(candidate->effect->name);
@@ -183,7 +170,24 @@ void add_omissions(const Evidence& evidence, Lines& lines) {
 
 }  // namespace
 
-std::vector<std::string> undecided(const Evidence& evidence, std::span<const Candidate> tried,
+std::vector<const Candidate*> hidden_candidates(const Evidence& evidence, std::span<const Candidate> tried,
+                                                const Selection& selection) {
+    std::vector<const Candidate*> hidden;
+    for (const Candidate& candidate : tried)
+        if (!candidate.is_limit) hidden.push_back(&candidate);
+    for (const std::size_t windows_of_a_signal : {4U, 12U, 48U}) {  // most show in the first few
+        const GlanceAtWindows look = look_at(evidence, selection.steps.front(), windows_of_a_signal);
+        std::vector<std::uint8_t> shows(hidden.size());
+        parallel_for(hidden.size(),
+                     [&](std::size_t k) { shows[k] = would_show(evidence, *hidden[k], look) ? 1 : 0; });
+        std::size_t next = 0;
+        std::erase_if(hidden, [&](const Candidate*) { return shows[next++] != 0; });
+        if (hidden.empty()) break;
+    }
+    return hidden;
+}
+
+std::vector<std::string> undecided(const Evidence& evidence, std::span<const Candidate* const> hidden,
                                    const Selection& selection) {
     Lines lines;
     add_other_rigs(evidence, lines);
@@ -195,7 +199,7 @@ std::vector<std::string> undecided(const Evidence& evidence, std::span<const Can
             "the search was ended before all that might do better was tried: what stays off its floor is the "
             "harder to explain the more effects there are; --effects with those suspected searches among "
             "these");
-    add_what_would_not_show(evidence, tried, selection, lines);
+    add_what_would_not_show(hidden, lines);
     add_omissions(evidence, lines);
     return lines;
 }

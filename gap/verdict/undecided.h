@@ -10,6 +10,12 @@
 
 namespace fidservo::gap {
 
+/// Of the candidates, those that would hardly show at their typical size: the loss that they would make, sum
+/// over windows of 1/2 log(1 + d_w), d_w the mean square change of the predictions in floors, is less than 4,
+/// what a search needs to be sure of anything.
+std::vector<const Candidate*> hidden_candidates(const Evidence& evidence, std::span<const Candidate> tried,
+                                                const Selection& selection);
+
 /// One line each, what concerns most first:
 ///   - recordings that say that they are of another rig, and signals that the explained simulator predicts
 ///     worse than a rig that does not move at all (r.m.s. within windows): the rig file may be of another
@@ -17,12 +23,10 @@ namespace fidservo::gap {
 ///   - signals of the rig that no recording has, or of which nothing could be judged;
 ///   - effects that act at a place on the rail, where places are not known;
 ///   - that the search was cut short;
-///   - by block, effects that would hardly show at their typical size: the loss that they would make,
-///     sum over windows of 1/2 log(1 + d_w), d_w the mean square change of the predictions in floors, is less
-///     than 4, what a search needs to be sure of anything;
+///   - by block, effects that would hardly show;
 ///   - parts of recordings that were not judged; of many recordings that share a reason, in one line.
-/// @param tried  what the diagnosis was to try
-std::vector<std::string> undecided(const Evidence& evidence, std::span<const Candidate> tried,
+/// @param hidden  result of hidden_candidates()
+std::vector<std::string> undecided(const Evidence& evidence, std::span<const Candidate* const> hidden,
                                    const Selection& selection);
 
 /// Where a gap was found but no effect was accepted for lack of data, the reason: the effect that would

@@ -89,6 +89,8 @@ class TriedEffect:
     effect: str
     probability: float
     gap_removed: float
+    would_show: bool = True
+    """Whether the recordings would show it at its typical size; if not, they say nothing of it."""
 
 
 @dataclass(frozen=True)

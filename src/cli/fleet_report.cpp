@@ -3,6 +3,8 @@
 #include "core/input_error.h"
 #include "src/cli/commands.h"
 #include "src/files/disk/durable_file.h"
+#include "src/files/rig/rig_file.h"
+#include "src/fleet/content.h"
 #include "src/fleet/report/cured_rig.h"
 #include "src/fleet/report/database.h"
 #include "src/fleet/report/findings.h"
@@ -11,10 +13,12 @@
 #include "src/fleet/report/judgement_words.h"
 #include "src/fleet/report/unexplained.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -27,6 +31,17 @@ struct FleetReportOptions {
     std::filesystem::path fleet, html, json, rig_file;
 };
 
+/// Throws InputError where no result is of this rig file.
+void demand_its_rig(const std::filesystem::path& rig_file, const std::vector<fleet::FleetResult>& results) {
+    if (rig_file.empty()) return;
+    const std::string content = fleet::content_of_files(files_of_rig(rig_file));
+    if (std::ranges::find(results, content, &fleet::FleetResult::rig_content) != results.end()) return;
+    throw InputError(
+        fmt::format("--rig: {}: no campaign was diagnosed with it as it is now; allowed: the rig file "
+                    "of these results, {}",
+                    rig_file.string(), results.back().rig_name));
+}
+
 int report_fleet(const FleetReportOptions& options) {
     demand_new_file("--html", options.html);
     demand_new_file("--json", options.json);
@@ -34,9 +49,13 @@ int report_fleet(const FleetReportOptions& options) {
     for (const std::string& line : collected.damaged) fmt::print(stderr, "passed over: {}\n", line);
     if (collected.results.empty())
         throw InputError(fmt::format("{}: there is no result in it", (options.fleet / "results").string()));
+    demand_its_rig(options.rig_file, collected.results);
     const fleet::FleetFindings findings = fleet::findings_of(collected.results);
     fmt::print("{} results of {} units, {} new, {} removed, {} passed over\n", collected.results.size(),
                findings.units.size(), collected.added, collected.removed, collected.damaged.size());
+    if (const std::string failed = fleet::not_diagnosed_sentence(findings.unexplained, findings.units);
+        !failed.empty())
+        fmt::print("{}\n", failed);
     if (!findings.unexplained.empty()) {
         constexpr std::size_t shown = 6;
         fmt::print("{}\n", fleet::unexplained_sentence(findings.unexplained));
@@ -46,11 +65,18 @@ int report_fleet(const FleetReportOptions& options) {
     for (const fleet::Judgement& judgement : findings.judgements)
         fmt::print("{}. {}\n", fleet::whose_words(findings, judgement),
                    fleet::matter_sentence(findings, judgement));
-    if (findings.judgements.empty())
-        fmt::print("{}no unit stands out, and none has changed\n",
-                   findings.unexplained.empty() ? "" : "by the effects that are named ");
+    if (findings.judgements.empty()) fmt::print("{}\n", fleet::nothing_stands_out(findings));
     std::filesystem::path cured = options.fleet / "cured-rig.yaml";
-    if (options.rig_file.empty() || !fleet::write_cured_rig(cured, options.rig_file, findings)) cured.clear();
+    if (!options.rig_file.empty()) {
+        const fleet::CuredRig written =
+            fleet::write_cured_rig(cured, options.rig_file, collected.results, findings);
+        for (const std::string& effect : written.left_out)
+            fmt::print("{}: is in no cured rig file, as units do not agree on its other parameters\n",
+                       effect);
+        if (!written.is_written) cured.clear();
+    } else {
+        cured.clear();
+    }
     if (!cured.empty()) fmt::print("rig file that cures what all share: {}\n", cured.string());
     fmt::print("database: {}\n", (options.fleet / "fleet.sqlite").string());
     if (!options.json.empty()) write_or_throw(options.json, fleet::fleet_json(collected, findings, cured));

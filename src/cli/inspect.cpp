@@ -3,6 +3,7 @@
 #include "core/input_error.h"
 #include "src/cli/commands.h"
 #include "src/cli/session_options.h"
+#include "src/files/disk/output_paths.h"
 #include "src/inspect/inspection_run.h"
 #include "src/inspect/measure/output.h"
 
@@ -82,6 +83,7 @@ void add_inspect(CLI::App& app, int& exit_code) {
     add_example(*command, "fidservo inspect assets/demo/recipe.yaml --out out/demo");
     command->callback([options, command, &exit_code] {
         if (command->count("--seed") > 0) options->seed = options->session.seed;
+        if (!options->history.empty()) demand_appendable("--history", options->history);
         if (!options->history.empty() && !options->diagnosis)
             throw InputError("--history: is made of the run's diagnosis; leave --no-diagnosis out");
         exit_code = run_inspect(*options);

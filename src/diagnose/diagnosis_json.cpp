@@ -136,7 +136,8 @@ std::string diagnosis_json(const gap::Diagnosis& diagnosis) {
     for (const gap::TriedEffect& effect : diagnosis.candidates)
         tried.push_back({{"effect", effect.effect},
                          {"probability", number(effect.probability)},
-                         {"gap_removed", number(effect.gap_removed)}});
+                         {"gap_removed", number(effect.gap_removed)},
+                         {"would_show", effect.would_show}});
     const Json all{{"format", "fidservo-diagnosis/1"},
                    {"verdict", gap::name_of(diagnosis.verdict)},
                    {"ended", gap::name_of(diagnosis.ended)},

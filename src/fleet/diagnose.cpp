@@ -12,9 +12,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <new>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -153,7 +155,8 @@ class CampaignTasks {
     const ResultStore& store_;
 };
 
-/// Sorted, each once, so that shards agree on their numbers however they were given.
+/// Sorted, each once, also where it is given by another path, so that shards agree on their numbers however
+/// they were given.
 std::vector<fs::path> campaigns_of(const DiagnoseRequest& request) {
     std::vector<std::pair<std::string, fs::path>> by_name;
     std::error_code error;
@@ -164,9 +167,18 @@ std::vector<fs::path> campaigns_of(const DiagnoseRequest& request) {
     }
     std::ranges::sort(by_name);
     std::vector<fs::path> campaigns;
-    for (const auto& [noted, path] : by_name)
-        if (campaigns.empty() || path.lexically_normal() / "" != campaigns.back().lexically_normal() / "")
-            campaigns.push_back(path);
+    std::set<fs::path> folders;
+    std::map<std::string, fs::path> by_stem;
+    for (const auto& [noted, path] : by_name) {
+        if (!folders.insert(fs::canonical(path)).second) continue;
+        const auto [same, is_new] = by_stem.emplace(file_stem(noted), path);
+        if (!is_new)
+            throw InputError(
+                fmt::format("{} and {}: results would note both as {}; allowed: paths that differ in "
+                            "their last two folders, or relative ones",
+                            same->second.string(), path.string(), noted));
+        campaigns.push_back(path);
+    }
     return campaigns;
 }
 

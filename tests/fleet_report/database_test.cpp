@@ -69,6 +69,59 @@ TEST_F(FleetFolder, DamagedAndForeignFiles_AreNamedAndTheRestGoesOn) {
               "other.json: format: is 'something-else/1'; allowed: fidservo-fleet-result/1");
 }
 
+TEST_F(FleetFolder, FolderAndNumbersThatNoRigHas_AreNamedAndTheRestGoesOn) {
+    std::filesystem::create_directories(fleet() / "results" / "folder.json");
+    DrawnFleet one;
+    one.units = one.weeks = 1;
+    one.truth = [](std::size_t, std::size_t, std::size_t) { return 3.0; };
+    FleetResult result = draw(one).front();
+    result.effects.front().parameters.front().value = 1e300;
+    write("huge.json", file_text(result));
+    result = draw(one).front();
+    result.effects.front().parameters.front().std = -1.0;
+    write("negative.json", file_text(result));
+    const Collected collected = collect_results(fleet());
+    EXPECT_EQ(collected.results.size(), 36U);
+    ASSERT_EQ(collected.damaged.size(), 3U);
+    EXPECT_EQ(collected.damaged[0], "folder.json: is no file");
+    EXPECT_NE(collected.damaged[1].find("allowed: a number up to 1e+12"), std::string::npos);
+    EXPECT_NE(collected.damaged[2].find("std: is -1; allowed: 0 or more"), std::string::npos);
+}
+
+/// Recordings that show nothing of an effect say nothing of it, whatever their number.
+TEST_F(FleetFolder, CampaignsThatWouldNotShowAnEffect_DoNotHideIt) {
+    const double size = findings_of(collect_results(fleet()).results).judgements.front().size.value;
+    DrawnFleet blind;
+    blind.units = 6;
+    blind.weeks = 6;
+    blind.spread_floors = blind.std_floors = blind.scatter_floors = 0.0;
+    for (FleetResult result : draw(blind)) {
+        result.file = "rest-" + result.file;
+        result.campaign_content[0] = 'f';
+        *result.recorded_at_s += 86'400;
+        for (TriedAlone& tried : result.tried) tried.would_show = false;
+        write(result.file, file_text(result));
+    }
+    const FleetFindings findings = findings_of(collect_results(fleet()).results);
+    ASSERT_FALSE(findings.judgements.empty());
+    EXPECT_EQ(findings.judgements.front().whose, Whose::all);
+    EXPECT_DOUBLE_EQ(findings.judgements.front().size.value, size);
+}
+
+TEST_F(FleetFolder, OneCampaignUnderTwoPaths_CountsOnce) {
+    const double std = findings_of(collect_results(fleet()).results).judgements.front().size.std;
+    for (const FleetResult& known : collect_results(fleet()).results) {
+        FleetResult again = known;
+        again.file = "again-" + known.file;
+        again.campaign = "link/" + known.campaign;
+        again.tried = {};
+        write(again.file, file_text(again));
+    }
+    const Collected collected = collect_results(fleet());
+    EXPECT_EQ(collected.results.size(), 72U);
+    EXPECT_DOUBLE_EQ(findings_of(collected.results).judgements.front().size.std, std);
+}
+
 TEST_F(FleetFolder, FileThatIsGone_IsRemoved) {
     (void)collect_results(fleet());
     std::filesystem::remove(fleet() / "results" / "u0000-w000.json");

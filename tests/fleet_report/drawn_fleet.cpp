@@ -96,8 +96,10 @@ std::string file_text(const FleetResult& result) {
                            {"gap_removed_interval", {0.9, 1.0}}});
     }
     for (const TriedAlone& one : result.tried)
-        tried.push_back(
-            {{"effect", one.effect}, {"probability", one.probability}, {"gap_removed", one.gap_removed}});
+        tried.push_back({{"effect", one.effect},
+                         {"probability", one.probability},
+                         {"gap_removed", one.gap_removed},
+                         {"would_show", one.would_show}});
     for (const SignalSize& signal : result.signals)
         signals.push_back({{"signal", signal.signal},
                            {"unit", signal.unit},

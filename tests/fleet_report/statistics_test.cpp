@@ -179,11 +179,16 @@ TEST(ChangePoints_, AllLooksOfManyYears_RaiseNoMoreAlarmsThanTheBoundAllows) {
 
 /// While three are off, the spread of units explains each of them.
 TEST(Attribution_, SeveralOddUnits_DoNotHideEachOther) {
-    for (const std::size_t odd : {1U, 2U, 3U, 5U}) {
+    struct Odd {
+        std::size_t units;
+        bool are_alike;
+    };
+    for (const auto& [odd, are_alike] :
+         {Odd{1, true}, Odd{2, true}, Odd{3, true}, Odd{5, true}, Odd{2, false}, Odd{5, false}}) {
         std::vector<Level> levels(50, Level{0.0, 0.1});
         for (std::size_t u = 0; u < levels.size(); ++u)
             levels[u].value = 0.3 * std::sin(static_cast<double>(7 * u + 1));
-        for (std::size_t u = 0; u < odd; ++u) levels[9 * u].value += u % 2 == 0 ? 10.0 : -10.0;
+        for (std::size_t u = 0; u < odd; ++u) levels[9 * u].value += are_alike || u % 2 == 0 ? 10.0 : -10.0;
         const Attribution found = attribute(levels, {}, 50);
         ASSERT_EQ(found.shares.size(), odd);
         for (const Share& share : found.shares) {

@@ -78,6 +78,25 @@ TEST(Unexplained, EverythingExplained_IsNothing) {
                 HasSubstr("No unit stands out, and none has changed."));
 }
 
+TEST(Unexplained, UnitsThatCouldNotBeDiagnosed_AreSaid_AndKeepWhatWasLeftBefore) {
+    FleetResult before = left_with("P-1", 9.0), failed = left_with("P-1", 1.0, "");
+    before.recorded_at_s = 1'772'409'600;
+    failed.recorded_at_s = 1'773'014'400;
+    failed.done = false;
+    failed.reason = "stage0.csv: line 7: is cut off";
+    const Collected collected{{before, failed, left_with("P-2", 1.0, "no-gap")}, {}};
+    const FleetFindings findings = findings_of(collected.results);
+    ASSERT_EQ(findings.unexplained.units.size(), 1U);
+    EXPECT_EQ(not_diagnosed_sentence(findings.unexplained, findings.units),
+              "1 of 2 units could not be diagnosed when it was recorded last: P-1.");
+    EXPECT_THAT(headline(fleet_page("fleet", collected, findings, {})), HasSubstr("could not be diagnosed"));
+
+    const Collected none{{failed}, {}};
+    const std::string page = fleet_page("fleet", none, findings_of(none.results), {});
+    EXPECT_THAT(headline(page), HasSubstr("1 of 1 units could not be diagnosed"));
+    EXPECT_THAT(page, Not(HasSubstr("Nothing. Go on")));
+}
+
 TEST(Unexplained, LaterDiagnosisThatIsExplained_Counts) {
     FleetResult before = left_with("P-1", 9.0), after = left_with("P-1", 1.0, "explained");
     before.recorded_at_s = 1'772'409'600;

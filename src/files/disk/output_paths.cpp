@@ -3,7 +3,12 @@
 
 #include "core/input_error.h"
 
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace fidservo {
 
@@ -40,6 +45,20 @@ void set_aside(const std::filesystem::path& path) {
             throw RunFault(fmt::format("{}: cannot be renamed: {}", path.string(), problem.message()));
         return;
     }
+}
+
+void demand_appendable(const char* option, const std::filesystem::path& file) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    if (fs::is_directory(file, error))
+        throw InputError(fmt::format("{}: {}: is a folder; allowed: a file", option, file.string()));
+    if (!fs::is_directory(folder, error))
+        throw InputError(fmt::format("{}: {}: its folder does not exist", option, file.string()));
+    const fs::path& written = fs::exists(file, error) ? file : folder;
+    if (::access(written.c_str(), W_OK) != 0)
+        throw InputError(
+            fmt::format("{}: {}: cannot be written: {}", option, file.string(), std::strerror(errno)));
 }
 
 }  // namespace fidservo

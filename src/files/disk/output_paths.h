@@ -15,4 +15,9 @@ void make_output_folder(const std::filesystem::path& folder);
 /// nothing. Throws RunFault if it cannot be renamed.
 void set_aside(const std::filesystem::path& path);
 
+/// Demands that lines can be appended to a file, which need not exist, before any work is done for them.
+/// Throws InputError.
+/// @param option  by which the file was given
+void demand_appendable(const char* option, const std::filesystem::path& file);
+
 }  // namespace fidservo

@@ -53,7 +53,7 @@ class ResultWriter {
           effects_(database, "INSERT INTO effects VALUES (?,?,?,?,?,?,?)"),
           parameters_(database, "INSERT INTO parameters VALUES (?,?,?,?,?,?,?,?)"),
           ties_(database, "INSERT OR IGNORE INTO ties VALUES (?,?,?)"),
-          tried_(database, "INSERT OR IGNORE INTO tried VALUES (?,?,?,?)") {
+          tried_(database, "INSERT OR IGNORE INTO tried VALUES (?,?,?,?,?)") {
         for (const char* table : tables_of_file)
             removals_.emplace_back(database, fmt::format("DELETE FROM {} WHERE file = ?", table));
     }
@@ -82,7 +82,8 @@ class ResultWriter {
         std::int64_t place = 0;
         for (const NamedEffect& effect : result.effects) add(result.file, place++, effect);
         for (const TriedAlone& tried : result.tried)
-            tried_.run(result.file, tried.effect, tried.probability, tried.gap_removed);
+            tried_.run(result.file, tried.effect, tried.probability, tried.gap_removed,
+                       static_cast<std::int64_t>(tried.would_show ? 1 : 0));
     }
 
   private:
@@ -101,6 +102,9 @@ class ResultWriter {
 };
 
 std::string bytes_of(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error))
+        throw InputError(fmt::format("{}: is no file", file.filename().string()));
     std::ifstream stream(file, std::ios::binary | std::ios::ate);
     if (!stream) throw InputError(fmt::format("{}: cannot be read", file.filename().string()));
     std::string bytes(static_cast<std::size_t>(std::max<std::streamoff>(0, stream.tellg())), '\0');
@@ -230,9 +234,9 @@ std::vector<FleetResult> all_results(const Database& database) {
              result.effects.at(static_cast<std::size_t>(row.integer(1)))
                  .indistinguishable_from.push_back(row.text(2));
          });
-    join(database, "SELECT file, effect, probability, gap_removed FROM tried ORDER BY file", results,
-         [](FleetResult& result, Statement& row) {
-             result.tried.push_back({row.text(1), row.number(2), row.number(3)});
+    join(database, "SELECT file, effect, probability, gap_removed, would_show FROM tried ORDER BY file",
+         results, [](FleetResult& result, Statement& row) {
+             result.tried.push_back({row.text(1), row.number(2), row.number(3), row.integer(4) != 0});
          });
     return results;
 }

@@ -167,6 +167,10 @@ void add_judgements(const std::vector<FleetResult>& results, const QuantityFindi
         if (share.whose == Whose::group) judgement.group = found.groups[share.which].name;
         judgement.size = share.size;
         judgement.now = mean_level(found, places);
+        judgement.is_beside_others = std::ranges::any_of(found.attribution.shares, [&](const Share& other) {
+            const std::vector<std::size_t> of_other = places_of(found, other);
+            return of_other.size() > places.size() && std::ranges::includes(of_other, places);
+        });
         judgement.probability = share.probability;
         judgement.log_odds = share.log_odds;
         judgement.log_all = share.log_all;

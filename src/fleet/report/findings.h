@@ -66,7 +66,9 @@ struct Judgement {
     std::string group;               ///< the batch's name; empty if it is no batch
     /// In floors, of a trend in floors per week. For changes of several units, their mean.
     Level size;
-    double now = 0.0;                     ///< present value, floors relative to the rig file
+    double now = 0.0;  ///< present value, floors relative to the rig file
+    /// Of a deviation: its units also have a share that they share with others, beside which `size` counts.
+    bool is_beside_others = false;
     std::optional<Dates> since;           ///< of a change
     std::optional<std::int64_t> found_s;  ///< time of the diagnosis with which it was first found
     double probability = 1.0;  ///< of a deviation: probability that it belongs to this unit, batch or all

@@ -28,10 +28,7 @@ std::size_t units_concerned(const FleetFindings& findings) {
 }
 
 std::string judgements_sentence(const FleetFindings& findings) {
-    if (findings.judgements.empty())
-        return findings.unexplained.empty()
-                   ? "No unit stands out, and none has changed."
-                   : "By the effects that are named no unit stands out, and none has changed.";
+    if (findings.judgements.empty()) return nothing_stands_out(findings);
     const Judgement& first = findings.judgements.front();
     const Quantity& quantity = findings.quantities[first.quantity].quantity;
     const std::string what =
@@ -44,8 +41,10 @@ std::string judgements_sentence(const FleetFindings& findings) {
 }
 
 std::string headline_of(const FleetFindings& findings) {
-    if (!findings.unexplained.empty()) return unexplained_sentence(findings.unexplained);
-    return judgements_sentence(findings);
+    const std::string failed = not_diagnosed_sentence(findings.unexplained, findings.units),
+                      found = findings.unexplained.empty() ? judgements_sentence(findings)
+                                                           : unexplained_sentence(findings.unexplained);
+    return failed.empty() ? found : failed + " " + found;
 }
 
 std::string judgement_card(const FleetFindings& findings, const Judgement& judgement) {
@@ -84,6 +83,9 @@ std::string unexplained_card(const FleetFindings& findings) {
 std::string to_do_html(const FleetFindings& findings, const std::filesystem::path& cured) {
     constexpr std::size_t shown_at_once = 12;
     std::string html = findings.unexplained.empty() ? "" : unexplained_card(findings);
+    if (!findings.unexplained.not_diagnosed.empty())
+        html += fmt::format("<p>{} Why is said under What was not judged: mend that, or record again.</p>",
+                            escaped(not_diagnosed_sentence(findings.unexplained, findings.units)));
     if (findings.judgements.empty())
         return html.empty() ? "<p>Nothing. Go on recording as often as until now.</p>" : html;
     if (!cured.empty())
@@ -242,9 +244,9 @@ std::string fleet_page(const std::filesystem::path& fleet, const Collected& coll
     page.subline = fmt::format("{}{} results of {} units.",
                                findings.unexplained.empty() ? "" : judgements_sentence(findings) + " ",
                                results.size(), findings.units.size());
-    page.mood = !findings.unexplained.empty() ? Mood::bad
-                : findings.judgements.empty() ? Mood::good
-                                              : Mood::unsure;
+    page.mood = !findings.unexplained.empty()                                               ? Mood::bad
+                : findings.judgements.empty() && findings.unexplained.not_diagnosed.empty() ? Mood::good
+                                                                                            : Mood::unsure;
     const auto failed =
         std::ranges::count_if(results, [](const FleetResult& result) { return !result.done; });
     const auto of = [&](Whose whose, bool changes) {

@@ -85,6 +85,26 @@ std::string whose_words(const FleetFindings& findings, const Judgement& judgemen
     return "Unit " + unit_names(findings, judgement.units);
 }
 
+std::string nothing_stands_out(const FleetFindings& findings) {
+    constexpr std::size_t fewest = 3;
+    std::vector<std::string> named;
+    for (const QuantityFindings& found : findings.quantities)
+        for (const UnitFindings& unit : found.units)
+            if (unit.known.named() && std::abs(unit.known.value) > half_width(unit.known))
+                named.push_back(fmt::format("{} of {} ({})", diagnose::readable(found.quantity.effect),
+                                            findings.units[unit.series.unit].name,
+                                            value_words(found.quantity, unit.known.value)));
+    if (findings.units.size() < fewest && !named.empty())
+        return fmt::format(
+            "None has changed; diagnoses name {}. Of fewer than three units it cannot be told whether a unit "
+            "is "
+            "off or the model.",
+            diagnose::enumerated(named));
+    return findings.unexplained.empty()
+               ? "No unit stands out, and none has changed."
+               : "By the effects that are named no unit stands out, and none has changed.";
+}
+
 std::string matter_sentence(const FleetFindings& findings, const Judgement& judgement) {
     const Quantity& quantity = quantity_of(findings, judgement);
     const std::string cause = diagnose::capitalised(cause_of(quantity));
@@ -101,10 +121,15 @@ std::string matter_sentence(const FleetFindings& findings, const Judgement& judg
         case Matter::deviation:
             break;
     }
-    return fmt::format("{}: {} is off the rig file by {} \u00b1 {} (95 %), {} floors.", cause, name,
+    return fmt::format("{}: {} is off {} by {} \u00b1 {} (95 %), {} floors.{}", cause, name,
+                       judgement.is_beside_others ? "what these units share with others" : "the rig file",
                        change_words(quantity, judgement.size.value),
                        three_digits(half_width(judgement.size) / quantity.floors_per_unit),
-                       three_digits(std::abs(judgement.size.value)));
+                       three_digits(std::abs(judgement.size.value)),
+                       judgement.is_beside_others
+                           ? fmt::format(" It stands at {}; the rig file says {}.",
+                                         value_words(quantity, judgement.now), value_words(quantity, 0.0))
+                           : "");
 }
 
 std::string evidence_sentences(const FleetFindings& findings, const Judgement& judgement) {
@@ -152,6 +177,13 @@ std::vector<std::string> what_to_do(const FleetFindings& findings, const Judgeme
             fmt::format("If it is so, let the rig file of all units state {} = {}: cured-rig.yaml, beside "
                         "the results, does where --rig is given.",
                         quantity.parameter, value_words(quantity, judgement.size.value)));
+        return steps;
+    }
+    if (judgement.is_beside_others && std::abs(judgement.now) < 0.5 * std::abs(judgement.size.value)) {
+        steps.emplace_back(
+            "Adjust nothing here: it agrees with the rig file where the others do not. Compare it with one "
+            "of "
+            "them: parts, supplier, place, who adjusted them.");
         return steps;
     }
     steps.push_back(check);

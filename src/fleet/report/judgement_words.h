@@ -12,6 +12,10 @@ namespace fidservo::fleet {
 /// "the model is wrong for all units", "batch 7", "unit P-0007".
 std::string whose_words(const FleetFindings& findings, const Judgement& judgement);
 
+/// What is said where there is no judgement: that no unit stands out; or, of fewer than three units, what
+/// their diagnoses name, as nobody can tell then whose it is.
+std::string nothing_stands_out(const FleetFindings& findings);
+
 /// The finding in one sentence.
 std::string matter_sentence(const FleetFindings& findings, const Judgement& judgement);
 

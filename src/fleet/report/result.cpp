@@ -40,8 +40,14 @@ class ResultPlace {
         if (!value_.is_string()) fail(fmt::format("is {}; allowed: text", value_.dump()));
         return value_.get<std::string>();
     }
+    bool truth() const {
+        if (!value_.is_boolean()) fail(fmt::format("is {}; allowed: true, false", value_.dump()));
+        return value_.get<bool>();
+    }
     double number() const {
-        if (!value_.is_number()) fail(fmt::format("is {}; allowed: a number", value_.dump()));
+        constexpr double most = 1e12;  // beyond anything that a rig has in any unit
+        if (!value_.is_number() || !(std::abs(value_.get<double>()) <= most))
+            fail(fmt::format("is {}; allowed: a number up to {:g}", value_.dump(), most));
         return value_.get<double>();
     }
     /// A number that a diagnosis may leave null.
@@ -68,6 +74,13 @@ std::int64_t time_of(const ResultPlace& place) {
     return time->ns / ns_per_s - (time->ns % ns_per_s < 0 ? 1 : 0);
 }
 
+double std_at(const ResultPlace& parameter) {
+    const ResultPlace place = parameter.at("std");
+    const double std = place.number_or_nan();
+    if (std < 0.0) place.fail(fmt::format("is {:g}; allowed: 0 or more", std));
+    return std;
+}
+
 NamedEffect effect_at(const ResultPlace& place) {
     NamedEffect effect;
     effect.effect = place.at("effect").text();
@@ -77,8 +90,8 @@ NamedEffect effect_at(const ResultPlace& place) {
     if (place.has("support") && place.at("support").has("gap_alone"))
         effect.gap_alone = place.at("support").at("gap_alone").number();
     place.at("parameters").each([&](const ResultPlace& one) {
-        effect.parameters.push_back({one.at("name").text(), one.at("unit").text(),
-                                     one.at("value").number_or_nan(), one.at("std").number_or_nan()});
+        effect.parameters.push_back(
+            {one.at("name").text(), one.at("unit").text(), one.at("value").number_or_nan(), std_at(one)});
     });
     place.at("indistinguishable_from").each([&](const ResultPlace& one) {
         effect.indistinguishable_from.push_back(one.text());
@@ -106,7 +119,8 @@ void read_diagnosis(const ResultPlace& place, FleetResult& result) {
     place.at("effects").each([&](const ResultPlace& one) { result.effects.push_back(effect_at(one)); });
     place.at("candidates").each([&](const ResultPlace& one) {
         result.tried.push_back({one.at("effect").text(), one.at("probability").number_or_nan(),
-                                one.at("gap_removed").number_or_nan()});
+                                one.at("gap_removed").number_or_nan(),
+                                !one.has("would_show") || one.at("would_show").truth()});
     });
 }
 

@@ -34,6 +34,7 @@ struct NamedEffect {
 struct TriedAlone {
     std::string effect;               ///< as in the catalogue of effects
     double probability, gap_removed;  ///< as in the diagnosis
+    bool would_show = true;           ///< whether the campaign would show it at its typical size
 };
 
 /// A signal's gap, r.m.s., in its unit.

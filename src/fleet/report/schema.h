@@ -8,7 +8,7 @@ namespace fidservo::fleet {
 /// In the file's header: tells a fleet's database from other SQLite files.
 inline constexpr std::int64_t fleet_application_id = 0x66697366;  // "fisf"
 /// Of the tables below. A database of another version is made anew from the results.
-inline constexpr std::int64_t fleet_schema_version = 1;
+inline constexpr std::int64_t fleet_schema_version = 2;
 
 inline constexpr const char* fleet_schema = R"sql(
 CREATE TABLE results (
@@ -35,7 +35,7 @@ CREATE TABLE ties (
   file TEXT NOT NULL REFERENCES results, place INTEGER NOT NULL, effect TEXT NOT NULL,
   PRIMARY KEY (file, place, effect)) WITHOUT ROWID;
 CREATE TABLE tried (
-  file TEXT NOT NULL REFERENCES results, effect TEXT NOT NULL, probability REAL, gap_removed REAL,
+  file TEXT NOT NULL REFERENCES results, effect TEXT NOT NULL, probability REAL, gap_removed REAL, would_show INTEGER,
   PRIMARY KEY (file, effect)) WITHOUT ROWID;
 CREATE INDEX results_by_unit ON results (unit, recorded_at_s);
 CREATE VIEW series AS

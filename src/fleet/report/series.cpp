@@ -9,6 +9,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
+#include <string_view>
+#include <utility>
 
 namespace fidservo::fleet {
 namespace {
@@ -47,8 +50,10 @@ Saying saying_of(const FleetResult& result, std::string_view effect, const Named
         if (std::ranges::find(one.indistinguishable_from, effect) != one.indistinguishable_from.end())
             return Saying::nothing;
     }
-    const bool was_tried = std::ranges::find(result.tried, effect, &TriedAlone::effect) != result.tried.end();
-    return was_tried && result.ended == "finished" ? Saying::absent : Saying::nothing;
+    const auto tried = std::ranges::find(result.tried, effect, &TriedAlone::effect);
+    const bool would_be_named =
+        tried != result.tried.end() && tried->would_show && result.ended == "finished";
+    return would_be_named ? Saying::absent : Saying::nothing;
 }
 
 /// The size below which a diagnosis names nothing, floors.
@@ -108,8 +113,11 @@ QuantityOverFleet over_fleet(const Quantity& quantity, const std::vector<FleetRe
 
 std::vector<UnitHistory> histories(const std::vector<FleetResult>& results) {
     std::map<std::string, std::vector<std::size_t>> by_name;
+    std::set<std::pair<std::string_view, std::string_view>> seen;
     for (std::size_t r = 0; r < results.size(); ++r)
-        by_name[results[r].unit.value_or(results[r].campaign)].push_back(r);
+        if (!results[r].done || results[r].campaign_content.empty() ||
+            seen.emplace(results[r].campaign_content, results[r].rig_content).second)
+            by_name[results[r].unit.value_or(results[r].campaign)].push_back(r);
     std::vector<UnitHistory> units;
     for (auto& [name, of_unit] : by_name) {
         std::ranges::stable_sort(of_unit, {}, [&](std::size_t r) { return results[r].recorded_at_s; });

@@ -13,7 +13,8 @@
 // One that does not name it, though it tried it, has passed over what was too small: below 1.1 floors, or
 // below what it has left unexplained, nothing is named: the limit L = sqrt(max(1.1, gap after)^2 - 1), with
 // the error of diagnoses that name it (statistics/censored.h). It says nothing of an effect that it could not
-// tell from one that it names, names with less than one half, or did not come to as its time was over.
+// tell from one that it names, names with less than one half, or did not come to as its time was over; nor of
+// one that its recordings would not show at its typical size, as rest shows no friction.
 #include "src/fleet/report/result.h"
 #include "src/fleet/report/statistics/point.h"
 
@@ -57,7 +58,7 @@ struct QuantityOverFleet {
 };
 
 /// Units by name, and their results by time. A result that names no unit is of a unit called like its
-/// campaign.
+/// campaign. Recordings that were diagnosed twice with one rig file, as under two paths, count once.
 std::vector<UnitHistory> histories(const std::vector<FleetResult>& results);
 
 /// All sizes of effects that some diagnosis names, in the order of the catalogue.

@@ -40,8 +40,12 @@ double Unexplained::median_floors() const {
 Unexplained unexplained_of(const std::vector<FleetResult>& results, const std::vector<UnitHistory>& units) {
     Unexplained unexplained;
     for (std::size_t u = 0; u < units.size(); ++u) {
-        const FleetResult& last = results[units[u].results.back()];
-        if (!last.done) continue;
+        const std::vector<std::size_t>& of_unit = units[u].results;
+        if (!results[of_unit.back()].done) unexplained.not_diagnosed.push_back(u);
+        const auto last_done =
+            std::find_if(of_unit.rbegin(), of_unit.rend(), [&](std::size_t r) { return results[r].done; });
+        if (last_done == of_unit.rend()) continue;
+        const FleetResult& last = results[*last_done];
         unexplained.diagnosed += 1;
         const bool says_so = last.verdict == "unexplained" || last.verdict == "partly-explained";
         if (!says_so || !(last.gap_after > gap::least_floors)) continue;
@@ -54,6 +58,18 @@ Unexplained unexplained_of(const std::vector<FleetResult>& results, const std::v
     }
     std::ranges::stable_sort(unexplained.units, std::greater{}, &LeftOver::floors);
     return unexplained;
+}
+
+std::string not_diagnosed_sentence(const Unexplained& unexplained, const std::vector<UnitHistory>& units) {
+    constexpr std::size_t shown = 6;
+    const std::size_t count = unexplained.not_diagnosed.size();
+    if (count == 0) return {};
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < std::min(count, shown); ++k)
+        names.push_back(units[unexplained.not_diagnosed[k]].name);
+    if (count > shown) names.push_back(fmt::format("{} more", count - shown));
+    return fmt::format("{} of {} units could not be diagnosed when {} recorded last: {}.", count,
+                       units.size(), count == 1 ? "it was" : "they were", diagnose::enumerated(names));
 }
 
 std::string unexplained_sentence(const Unexplained& unexplained) {

@@ -10,7 +10,7 @@
 
 namespace fidservo::fleet {
 
-/// The remaining gap in a unit's last diagnosis.
+/// The remaining gap in a unit's last diagnosis that succeeded.
 struct LeftOver {
     std::size_t unit = 0;    ///< index in the histories
     double floors = 1.0;     ///< gap with all named effects; 1 is noise alone
@@ -22,8 +22,9 @@ struct LeftOver {
 
 /// All units' remainders.
 struct Unexplained {
-    std::vector<LeftOver> units;  ///< units with a remaining gap, the largest first
-    std::size_t diagnosed = 0;    ///< number of units whose last diagnosis succeeded
+    std::vector<LeftOver> units;             ///< units with a remaining gap, the largest first
+    std::size_t diagnosed = 0;               ///< number of units of which a diagnosis has succeeded
+    std::vector<std::size_t> not_diagnosed;  ///< units whose last campaign could not be diagnosed
 
     bool empty() const { return units.empty(); }
     /// Whether at least two units and 80 % of all have one: it is then not a matter of single units.
@@ -32,9 +33,12 @@ struct Unexplained {
     double median_floors() const;
 };
 
-/// A unit leaves something where the last diagnosis says unexplained or partly-explained, and more than 1.1
-/// floors are left.
+/// A unit leaves something where the last diagnosis that succeeded says unexplained or partly-explained, and
+/// more than 1.1 floors are left.
 Unexplained unexplained_of(const std::vector<FleetResult>& results, const std::vector<UnitHistory>& units);
+
+/// "2 of 7 units could not be diagnosed when they were recorded last: U-3 and U-5." Empty if all could.
+std::string not_diagnosed_sentence(const Unexplained& unexplained, const std::vector<UnitHistory>& units);
 
 /// "4 of 4 units leave 11 floors that nothing known explains."
 std::string unexplained_sentence(const Unexplained& unexplained);

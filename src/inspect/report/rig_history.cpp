@@ -90,7 +90,10 @@ HistoryFindings append_to_history(const std::filesystem::path& file, const Rig& 
     const fleet::FleetFindings changes = fleet::findings_of(history.runs);
     const std::string unit = unit_of(rig, origin);
     const auto is_its_own = [&](std::size_t u) { return changes.units[u].name == unit; };
-    const std::ptrdiff_t runs = std::ranges::count(history.runs, unit, &fleet::FleetResult::unit);
+    const auto own = std::ranges::find(changes.units, unit, &fleet::UnitHistory::name);
+    const std::size_t runs = own->results.size(), judged = runs - own->first_judged;
+    const std::string with_this_file =
+        judged < runs ? fmt::format(", {} of them with this rig file, which alone are compared", judged) : "";
     for (const fleet::Judgement& judgement : changes.judgements) {
         if (judgement.matter == fleet::Matter::deviation || std::ranges::none_of(judgement.units, is_its_own))
             continue;
@@ -101,9 +104,11 @@ HistoryFindings append_to_history(const std::filesystem::path& file, const Rig& 
                         report::escaped(text));
     }
     if (said.html.empty())
-        said.html = fmt::format(
-            "<p>Over the {} runs of its history the rig has not changed significantly.</p>\n", runs);
-    said.lines.push_back(fmt::format("history: {} ({} runs of {})", file.string(), runs, unit));
+        said.html =
+            fmt::format("<p>Over the {} runs of its history{} the rig has not changed significantly.</p>\n",
+                        runs, with_this_file);
+    said.lines.push_back(
+        fmt::format("history: {} ({} runs of {}{})", file.string(), runs, unit, with_this_file));
     return said;
 }
 

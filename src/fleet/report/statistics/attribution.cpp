@@ -189,11 +189,13 @@ Explanation explanation_by(std::span<const Level> levels, std::span<const TakenS
     return explanation;
 }
 
-/// The set that is likeliest to have a share beside an explanation, with the natural log odds for it.
-std::pair<TakenSet, double> likeliest_beside(const Explanation& explanation,
+/// The set that is likeliest to have a share beside an explanation by those taken, with the natural log odds
+/// for it.
+std::pair<TakenSet, double> likeliest_beside(const Explanation& explanation, std::span<const TakenSet> taken,
                                              const std::vector<CandidateSet>& sets) {
     std::pair<TakenSet, double> best{{nullptr, 0.0}, -1e300};
     for (const CandidateSet& set : sets) {
+        if (std::ranges::find(taken, &set, &TakenSet::set) != taken.end()) continue;
         const auto [log_likelihood, law] = explanation.log_likelihood_with(set);
         const double odds = log_likelihood - explanation.log_likelihood() + set.log_prior_odds;
         if (odds > best.second) best = {{&set, law}, odds};
@@ -201,20 +203,21 @@ std::pair<TakenSet, double> likeliest_beside(const Explanation& explanation,
     return best;
 }
 
-/// The next set, or the next few that only together have odds of 19 to 1: while several units are off, and
-/// none of them has a share, the spread explains them all. Empty where no few of them have.
-std::vector<TakenSet> next_sets(Explanation explanation, const std::vector<CandidateSet>& sets,
-                                std::size_t most) {
-    std::vector<TakenSet> next;
+/// Those taken with the next set, or with the next few that only together have odds of 19 to 1: while several
+/// units are off, and none of them has a share, the spread explains them all. As they were where no few have.
+std::vector<TakenSet> with_next(std::span<const Level> levels, const std::vector<CandidateSet>& sets,
+                                const std::vector<TakenSet>& taken, std::size_t most) {
+    std::vector<TakenSet> longer = taken;
+    Explanation explanation = explanation_by(levels, taken);
     double log_odds = 0.0;
-    while (next.size() < most) {
-        const auto [set, odds] = likeliest_beside(explanation, sets);
-        next.push_back(set);
+    while (longer.size() < std::min(taken.size() + most, sets.size())) {
+        const auto [set, odds] = likeliest_beside(explanation, longer, sets);
+        longer.push_back(set);
         log_odds += odds;
-        if (log_odds >= least_log_odds) return next;
+        if (log_odds >= least_log_odds) return longer;
         explanation.take(*set.set, set.law);
     }
-    return {};
+    return taken;
 }
 
 /// A set's share, judged beside an explanation without it.
@@ -262,10 +265,10 @@ Attribution attribute(std::span<const Level> levels, std::span<const std::vector
     const std::vector<CandidateSet> sets = candidate_sets(levels.size(), groups, quantities);
     std::vector<TakenSet> taken;
     while (taken.size() < most_shares) {
-        const std::vector<TakenSet> next = next_sets(explanation_by(levels, taken), sets,
-                                                     std::min(most_at_once, levels.size() / least_units));
-        if (next.empty()) break;
-        taken.insert(taken.end(), next.begin(), next.end());
+        std::vector<TakenSet> longer =
+            with_next(levels, sets, taken, std::min(most_at_once, levels.size() / least_units));
+        if (longer.size() == taken.size()) break;
+        taken = std::move(longer);
     }
     Attribution attribution{.shares = pruned(levels, sets, taken)};
     const Explanation explanation = explanation_by(levels, taken);
