@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/fleet/report/statistics/change_points.h"
 
+#include "core/median.h"
 #include "src/fleet/report/statistics/censored.h"
 #include "src/fleet/report/statistics/change_scan.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <optional>
 
 namespace fidservo::fleet {
@@ -48,11 +51,24 @@ bool passes(std::span<const Point> points, const Scatter& scatter, std::span<con
            scan(points, scatter, known).log_sum() >= log_bound;
 }
 
+/// Indices of points, those farthest from the median first: an alarm that rests on one diagnosis most often
+/// rests on one of these.
+std::vector<std::size_t> farthest_first(std::span<const Point> points) {
+    std::vector<double> values;
+    for (const Point& point : points) values.push_back(point.value);
+    const double median = median_of(values);
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::greater{},
+                             [&](std::size_t k) { return std::abs(points[k].value - median); });
+    return order;
+}
+
 /// Whether M passes the bound without any one of the diagnoses, too: without any one of the first `count`
 /// points that does not stand for several.
 bool stands_without_any(const CountedPoints& kept, std::size_t count, const Scatter& scatter,
                         std::span<const ChangeColumn> known, double log_bound) {
-    for (std::size_t left_out = 0; left_out < count; ++left_out) {
+    for (const std::size_t left_out : farthest_first(std::span(kept.points).first(count))) {
         if (kept.stands_for[left_out] > 1) continue;
         std::vector<Point> fewer(kept.points.begin(),
                                  kept.points.begin() + static_cast<std::ptrdiff_t>(count));
@@ -126,6 +142,8 @@ std::vector<Change> find_changes(std::span<const Point> points, const Scatter& s
             size_of(points, scatter, others, column_of(changes[c].kind, points, changes[c].first));
         changes[c].size = size.value;
         changes[c].std = size.std;
+        // With others beside it, it may have come to be dated later than it was found.
+        changes[c].found = std::max(changes[c].found, changes[c].first);
         changes[c].log_evidence = std::max(0.0, scan(kept.points, scatter, others).log_sum() - log_bound);
     }
     std::ranges::sort(changes, {}, &Change::first);
