@@ -132,8 +132,16 @@ void add_notes(gap::Diagnosis& diagnosis, const std::vector<std::string>& notes)
 }  // namespace
 
 bool Comparison::has_changed() const {
-    return std::ranges::any_of(shared, &ParameterPair::has_changed) || !beyond.effects.empty() ||
-           (beyond.unexplained && !before.unexplained);
+    return std::ranges::any_of(shared, &ParameterPair::has_changed) || has_news();
+}
+
+bool Comparison::has_news() const {
+    if (beyond.effects.empty() && !beyond.unexplained) return false;
+    return std::ranges::any_of(beyond.signals, [&](const gap::SignalGap& in_b) {
+        const auto in_a = std::ranges::find(before.signals, in_b.signal, &gap::SignalGap::signal);
+        const double left_in_a = in_a == before.signals.end() ? 0.0 : in_a->after;
+        return in_b.before >= gap::least_floors * std::max(left_in_a, in_b.floor);
+    });
 }
 
 Comparison compare(const Rig& rig, diagnose::ReadRecordings before, diagnose::ReadRecordings after,

@@ -10,7 +10,8 @@
 //
 // is significant at 1 % over all parameters (Holm), and the second set's prediction errors with the first
 // set's values exceed those with its own by a factor of 1.1 or more, r.m.s. in floors; less is not worth a
-// finding (gap/fit/gap_size.h). Source: Holm, Scand. J. Stat. 6, 1979.
+// finding (gap/fit/gap_size.h). The same factor is asked of what is named anew. Source: Holm, Scand. J. Stat.
+// 6, 1979.
 //
 // The time is counted by effort (gap/budget.h), so that the result does not depend on how busy the computer
 // is.
@@ -46,6 +47,10 @@ struct Comparison {
         gap_by_own = 1.0;
 
     bool has_changed() const;
+    /// Whether what is named, or left unexplained, in B beside A's effects is new: some signal of B is
+    /// predicted worse with these effects, by a factor of 1.1 or more, than what they leave of it in A, or
+    /// than noise.
+    bool has_news() const;
 };
 
 /// What was noted while a set was read and thinned stands among the notes of its diagnosis.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace fidservo::compare {
@@ -21,14 +22,19 @@ std::string describe(const Comparison& comparison) {
             pair.effect, pair.block, pair.parameter, pair.before, pair.before_std, pair.after, pair.after_std,
             pair.unit, pair.after - pair.before, 1.96 * std::hypot(pair.before_std, pair.after_std), pair.p,
             pair.has_changed ? "changed" : "the same");
+    const bool has_news = comparison.has_news();
     for (const gap::FoundEffect& effect : comparison.beyond.effects) {
+        if (!has_news) break;
         text += fmt::format("  {} ({}): new in B, probability {:.2f}\n", effect.effect, effect.block,
                             effect.probability);
+        if (!effect.indistinguishable_from.empty())
+            text += fmt::format("    these recordings cannot tell it from: {}\n",
+                                fmt::join(effect.indistinguishable_from, ", "));
         for (const gap::FittedParameter& parameter : effect.parameters)
             text += fmt::format("    {} = {:.5g} +- {:.2g} {}\n", parameter.name, parameter.value,
                                 1.96 * parameter.std, parameter.unit);
     }
-    if (comparison.beyond.unexplained && !comparison.before.unexplained)
+    if (has_news && comparison.beyond.unexplained)
         text += "  new in B, and not explained: " + comparison.beyond.unexplained->text + "\n";
     for (const std::string& note : comparison.before.notes) text += "note on A: " + note + "\n";
     for (const std::string& note : comparison.beyond.notes) text += "note on B: " + note + "\n";

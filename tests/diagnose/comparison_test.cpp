@@ -45,6 +45,29 @@ const ParameterPair* find_pair(const Comparison& comparison, std::string_view ef
     return found == comparison.shared.end() ? nullptr : &*found;
 }
 
+gap::SignalGap encoder(double before, double after) {
+    return {.signal = gap::Signal::encoder, .before = before, .after = after, .floor = 0.3};
+}
+
+/// A second diagnosis may name what the first one passed over, without any change.
+TEST(Comparison, WhatIsNamedInB_IsNewOnlyWhereBIsPredictedWorseThanA) {
+    Comparison comparison;
+    comparison.beyond.effects.emplace_back().effect = "belt_compliance";
+    comparison.before.signals = {encoder(40.0, 2.0)};
+    comparison.beyond.signals = {encoder(2.1, 0.3)};
+    EXPECT_FALSE(comparison.has_changed());
+    comparison.beyond.signals = {encoder(2.3, 0.3)};
+    EXPECT_TRUE(comparison.has_changed());
+    comparison.before.signals = {encoder(40.0, 0.2)};
+    comparison.beyond.signals = {encoder(0.32, 0.3)};
+    EXPECT_FALSE(comparison.has_changed()) << "noise";
+    comparison.beyond.effects.clear();
+    comparison.beyond.signals = {encoder(5.0, 5.0)};
+    EXPECT_FALSE(comparison.has_changed()) << "nothing is named, and nothing left";
+    comparison.beyond.unexplained.emplace();
+    EXPECT_TRUE(comparison.has_changed());
+}
+
 /// One pair as a guard; all of them together for the share of false alarms.
 TEST(SlowComparison, SameRig_HasNotChanged) {
     constexpr std::array<std::uint64_t, 3> seeds{610, 620, 630};
