@@ -99,15 +99,19 @@ class FormulaOfName {
         if (role == roles.end())
             refuse(key + ".role", "\"" + parameter.role + "\"; allowed: size, shape, optional");
         if (!(parameter.low < parameter.high && std::isfinite(parameter.low) &&
-              std::isfinite(parameter.high)))
-            refuse(key + ".high", "must be above low, and both finite");
+              std::isfinite(parameter.high))) {
+            std::ostringstream what;
+            what << "low is " << parameter.low << ", high " << parameter.high
+                 << "; allowed: two finite numbers, low below high";
+            refuse(key + ".bounds", what.str());
+        }
         for (const auto& [name, value] :
-             {std::pair{".vanishing", parameter.vanishing}, {".typical", parameter.typical}})
+             {std::pair{"vanishing", parameter.vanishing}, {"typical", parameter.typical}})
             if (!(value >= parameter.low && value <= parameter.high)) {
                 std::ostringstream what;
-                what << value << " is out of its bounds; allowed: " << parameter.low << " .. "
-                     << parameter.high;
-                refuse(key + name, what.str());
+                what << "its " << name << " value, " << value
+                     << ", is out of its bounds; allowed: " << parameter.low << " .. " << parameter.high;
+                refuse(key + "." + name, what.str());
             }
         if (role->role == Role::size && parameter.typical == parameter.vanishing)
             refuse(key + ".typical", "is the vanishing value; allowed: one with which the effect is there");

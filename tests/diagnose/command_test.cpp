@@ -75,6 +75,27 @@ TEST(DiagnoseCommand, RigWithoutAWire_IsAskedForAnExperimentAsWell) {
     EXPECT_THAT(run.out, HasSubstr("no experiment was written to next.yaml"));
 }
 
+/// Said before the search, which may take half a minute.
+TEST(DiagnoseCommand, FormulaOfANameThatTheRigFileStates_CannotBeWrittenBeside) {
+    const TemporaryFolder folder;
+    const std::string formula =
+        "name: drag\n    block: macro.friction\n    acts_on: macro.friction\n"
+        "    formula: k * speed\n    parameters:\n"
+        "      k: {unit: V s/mm, bounds: [0, 1e-3], typical: 1e-5";
+    std::ofstream(folder / "effects.yaml")
+        << "format: fidservo-effects/1\neffects:\n  - " << formula << "}\n";
+    std::string rig = testing::text_of(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
+    rig = rig.substr(0, rig.find("micro:"));
+    std::ofstream(folder / "rig.yaml") << rig << "effects:\n  - " << formula << ", value: 1e-5}\n";
+    ASSERT_EQ(
+        run_program({"simulate", "rest", "--rig", "rig.yaml", "--out", "rest"}, folder.path()).exit_code, 0);
+    const ProgramRun run = run_program({"diagnose", "--rig", "rig.yaml", "rest", "--effects-file",
+                                        "effects.yaml", "--write-rig", "new.yaml"},
+                                       folder.path());
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, HasSubstr("effects.yaml: drag: rig.yaml states a formula of that name already"));
+}
+
 TEST(SlowDiagnoseCommand, Tie_LeadsToAnExperimentThatSimulateTakes) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_program({"simulate", "macro-square", "--effect", "drive_offset:offset_V=0.03", "--seed",

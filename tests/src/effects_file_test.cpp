@@ -94,7 +94,10 @@ TEST(EffectsFile, Mistakes_AreNamedWithFileLineKeyAndWhatIsAllowed) {
     EXPECT_THAT(mistake(two_effects, "block: macro.friction", "block: micro.hall"),
                 HasSubstr("effects.yaml:4: effects[0].block: micro.hall: "));
     EXPECT_THAT(mistake(two_effects, "bounds: [0, 1e-4]", "bounds: [1e-4, 0]"),
-                HasSubstr("effects.yaml:8: "));
+                ::testing::AllOf(HasSubstr("effects.yaml:8: effects[0].parameters.drag.bounds: "),
+                                 HasSubstr("low is 0.0001, high 0; allowed: two finite numbers")));
+    EXPECT_THAT(mistake(two_effects, "bounds: [0, 1e-4]", "bounds: [1e-6, 1e-4]"),
+                HasSubstr("its vanishing value, 0, is out of its bounds; allowed: 1e-06 .. 0.0001"));
     EXPECT_THAT(mistake(two_effects, "typical: 5.0e-6", "typical: 5.0"), HasSubstr("allowed: 0 .. 0.0001"));
     EXPECT_THAT(mistake(two_effects, "role: shape", "role: form"),
                 HasSubstr("effects[1].parameters.wide.role"));
