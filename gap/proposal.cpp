@@ -121,6 +121,26 @@ void take_values(const ProposedEquation& beside, Diagnosis& diagnosis) {
     diagnosis.hypothesis.assign(together.begin(), std::prev(together.end()));
 }
 
+/// An equation that removes nearly all of what is left says best where that arises, and on what it depends.
+void believe_equation(Diagnosis& diagnosis) {
+    constexpr double nearly_all = 0.9;
+    Remainder& left = *diagnosis.unexplained;
+    const Equation& equation = *left.equation;
+    if (equation.gap_removed < nearly_all) return;
+    if (left.depends_on.empty()) left.depends_on = equation.variables;
+    const std::string block(equation.setting.effect->block);
+    if (left.block == block) return;
+    const bool is_of_names =
+        std::ranges::find(diagnosis.effects, left.block, &FoundEffect::block) != diagnosis.effects.end();
+    const auto accused = std::ranges::find(diagnosis.where, left.block, &BlockProbability::block);
+    if (accused != diagnosis.where.end()) {
+        const double probability = accused->probability;
+        if (!is_of_names) diagnosis.where.erase(accused);
+        accuse(diagnosis.where, block, probability);
+    }
+    left.block = block;
+}
+
 /// @param diagnosis  also says what is left, if it did not yet
 std::optional<ProposedEquation> equation_for(Proposals& proposals, Diagnosis& diagnosis) {
     std::optional<Remainder>& left = diagnosis.unexplained;
@@ -148,8 +168,10 @@ Ended propose_equation(const Evidence& evidence, const Selection& selection, con
     if (options.selection.search.tell) options.selection.search.tell("equation for what is left");
     try {
         Proposals proposals(evidence, selection, options, are_credible(diagnosis.effects));
-        if (auto proposed = equation_for(proposals, diagnosis))
+        if (auto proposed = equation_for(proposals, diagnosis)) {
             diagnosis.unexplained->equation = std::move(proposed->equation);
+            believe_equation(diagnosis);
+        }
     } catch (const BudgetEnded& end) {
         if (end.how() == Ended::interrupted) return end.how();
         diagnosis.notes.emplace_back("no equation was found for what is left in the time for it");

@@ -206,9 +206,13 @@ std::vector<std::string> undecided(const Evidence& evidence, std::span<const Can
 
 std::string what_is_wanting(const Evidence& evidence, const Selection& selection) {
     constexpr double least_removed = 0.5;
-    constexpr std::size_t few_windows = 20;
-    const std::size_t windows = evidence.windows().size();
+    constexpr std::ptrdiff_t few_windows = 20;
     const CrossFit& nothing = selection.steps.front();
+    const std::vector<SignalGap> gaps = signal_gaps(evidence, nothing.mean_squares, nothing.mean_squares);
+    const Signal furthest = std::ranges::max_element(gaps, {}, [](const SignalGap& gap) {
+                                return gap.before / gap.floor;
+                            })->signal;
+    const auto windows = std::ranges::count(evidence.windows(), furthest, &Window::signal);
     const Trial* best = nullptr;
     double most = least_removed;
     for (const Trial& trial : selection.alone) {
@@ -220,18 +224,18 @@ std::string what_is_wanting(const Evidence& evidence, const Selection& selection
         best = &trial;
     }
     if (best == nullptr)
-        return windows >= few_windows
-                   ? std::string()
-                   : fmt::format("{} windows are too few to tell a cause from chance", windows);
+        return windows >= few_windows ? std::string()
+                                      : fmt::format("{}: {} windows are too few to tell a cause from chance",
+                                                    name_of(furthest), windows);
     const plant::EffectSetting &one = best->fitted.of_half[0].back(), &other = best->fitted.of_half[1].back();
     std::vector<std::string> values;
     for (std::size_t k = 0; k < one.values.size(); ++k)
         values.push_back(fmt::format("{} {:.3g} by one half of the data, {:.3g} by the other",
                                      one.effect->parameters[k].name, one.values[k], other.values[k]));
     return fmt::format(
-        "{} ({}) would remove {:.0f} % of the gap, but {} windows are too few, or too few of them "
+        "{} ({}) would remove {:.0f} % of the gap, but {} windows of the {} are too few, or too few of them "
         "say so, to be sure",
-        one.effect->name, fmt::join(values, "; "), 100.0 * most, windows);
+        one.effect->name, fmt::join(values, "; "), 100.0 * most, windows, name_of(furthest));
 }
 
 }  // namespace fidservo::gap

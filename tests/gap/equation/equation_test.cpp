@@ -62,6 +62,8 @@ TEST(SlowEquation, LawBesideANameThatIsRight_LeavesTheName) {
     const Equation& equation = *diagnosis.unexplained->equation;
     EXPECT_GT(equation.gap_removed, 0.99);
     EXPECT_NEAR(equation.parameters.at(0).value, 4e-6, 0.1e-6);
+    EXPECT_EQ(diagnosis.unexplained->block, equation.setting.effect->block);
+    EXPECT_FALSE(diagnosis.unexplained->depends_on.empty());
     const FittedParameter& factor = diagnosis.effects.front().parameters.at(0);
     EXPECT_NEAR(factor.value, 0.9, 0.01) << "beside the law, the gain makes up for nothing";
 }
