@@ -97,7 +97,7 @@ TEST(FormulaCode, TextsThatDoNotFitTheMachine_AreRefused) {
     EXPECT_THAT(refusal_of(text), HasSubstr("is no name"));
     text = friction("a * speed");
     text.parameters[0].high = -1e5;
-    EXPECT_THAT(refusal_of(text), HasSubstr("parameters.a.high"));
+    EXPECT_THAT(refusal_of(text), HasSubstr("parameters.a.bounds"));
     text = friction("a * speed");
     text.parameters[0].typical = 2e5;
     EXPECT_THAT(refusal_of(text), HasSubstr("allowed: -10000 .. 10000"));
