@@ -249,9 +249,8 @@ Diagnosis worked_out(const Evidence& evidence, const std::vector<Candidate>& tri
     const std::vector<Remainder> left = left_over.remainders(tail);
     const Fit fitted = fit_to_all(evidence, explained);
     std::optional<Remainder> whole;
-    const bool is_view_named = std::ranges::any_of(selection.choices, [](const Choice& choice) {
-        return stage_of(choice.candidate->effect->block) == Stage::camera;
-    });
+    const bool is_view_named = std::ranges::any_of(
+        selection.choices, [](const Choice& choice) { return shows_in_view(*choice.candidate->effect); });
     if (is_view_named) whole = remainder_of(evidence, selection.steps.front(), tail);
     say_what_is_named(evidence, selection, fitted,
                       {.off = left_over.signals(), .dependent = dependent_signals(left)}, whole, diagnosis);

@@ -70,8 +70,9 @@ struct Support {
     bool leaves_something = false;
     /// Whether residual analysis finds on what the errors depend that remain in such a signal.
     bool leaves_dependence = false;
-    /// Of an effect of the camera or what it sees: whether residual analysis without names finds that the
-    /// whole gap depends on one quantity alone, which accuses a block of these that is not named.
+    /// Of an effect of the camera, of what it sees, or of the encoder's reading: whether residual analysis
+    /// without names finds that the whole gap depends on one quantity alone, which accuses a block of camera
+    /// or plate that is not named.
     bool is_contested = false;
 };
 

@@ -16,7 +16,7 @@ namespace {
 /// See Support::is_contested.
 bool is_contested(const std::optional<Remainder>& whole, const Selection& selection, const Choice& choice) {
     if (!whole || whole->depends_on.size() != 1 || stage_of(whole->block) != Stage::camera ||
-        stage_of(choice.candidate->effect->block) != Stage::camera)
+        !shows_in_view(*choice.candidate->effect))
         return false;
     return std::ranges::none_of(selection.choices, [&](const Choice& named) {
         return named.candidate->effect->block == whole->block;
@@ -101,6 +101,10 @@ double weight_of_name(const Choice& choice, const ChoiceWeights& weights) {
 }
 
 }  // namespace
+
+bool shows_in_view(const plant::Effect& effect) {
+    return stage_of(effect.block) == Stage::camera || effect.part == plant::Part::encoder;
+}
 
 Features features_of(const Support& support) {
     constexpr double most_logit = 7.0, least_share = 1e-4, least_apart = 1e-3, least_floors_off = 0.15,

@@ -21,9 +21,8 @@ namespace fidservo::gap {
 
 /// The regression's features, by name.
 inline constexpr std::array<std::string_view, 9> feature_names{
-    "weight_logit", "log_discrepancy", "log_own_discrepancy", "log_gain",
-    "log_gap_left", "log_names",       "halves_agree",        "leaves_nothing",
-    "leaves_no_dependence"};
+    "weight_logit", "log_discrepancy", "log_own_discrepancy", "log_gain", "log_gap_left", "log_names",
+    "halves_agree", "leaves_nothing",  "leaves_no_dependence"};
 using Features = std::array<double, feature_names.size()>;
 
 /// The features x_k of a named effect, each larger the stronger the evidence; logarithms are natural:
@@ -57,6 +56,10 @@ struct SignalsLeft {
     SignalFlags off{};        ///< off their floors
     SignalFlags dependent{};  ///< those of whose errors it was found on what they depend, or was not asked
 };
+
+/// Whether an effect displaces tags by itself: one of the camera, of what it sees, or of the encoder's
+/// reading, by which tags are predicted.
+bool shows_in_view(const plant::Effect& effect);
 
 /// The evidence for each choice of a selection.
 /// @param left   by the whole explanation
