@@ -21,7 +21,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <ranges>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -215,7 +215,7 @@ SignalFlags dependent_signals(const std::vector<Remainder>& remainders) {
 std::optional<Remainder> together(const std::vector<Remainder>& remainders) {
     if (remainders.empty()) return {};
     Remainder all = remainders.front();
-    for (const Remainder& other : remainders | std::views::drop(1)) all.text += ". " + other.text;
+    for (const Remainder& other : std::span(remainders).subspan(1)) all.text += ". " + other.text;
     return all;
 }
 

@@ -19,9 +19,9 @@ class LeftOver {
     LeftOver(const Evidence& evidence, const CrossFit& explained);
 
     /// Fits a flexible model of each signal's remaining errors (surrogate.h) to one half of the windows and
-    /// tests it on the other: signals of whose errors it predicts something significantly, and those with more
-    /// than 1.25 floors, whose cause then depends on a quantity that is not tried. Those of which the errors
-    /// say most come first.
+    /// tests it on the other: signals of whose errors it predicts something significantly, and those with
+    /// more than 1.25 floors, whose cause then depends on a quantity that is not tried. Those of which the
+    /// errors say most come first.
     /// @param matters  signals whose discrepancy is no larger are ignored
     std::vector<Remainder> remainders(double tail, const SignalLimits& matters = {}) const;
 

@@ -107,9 +107,11 @@ TEST(ChangePoints_, StepAndRepair_AreBothFound) {
 }
 
 TEST(ChangePoints_, LongTimeWithoutAName_CountsAsOneDiagnosis) {
-    std::vector<Point> points;
-    for (int week = 0; week < 40; ++week) points.push_back({static_cast<double>(week), 0.0, 0.02, 0.458});
-    for (int week = 40; week < 44; ++week) points.push_back({static_cast<double>(week), 0.47, 0.02});
+    std::vector<Point> points(44);
+    for (int week = 0; week < 44; ++week)
+        points[static_cast<std::size_t>(week)] = week < 40
+                                                     ? Point{static_cast<double>(week), 0.0, 0.02, 0.458}
+                                                     : Point{static_cast<double>(week), 0.47, 0.02};
     EXPECT_TRUE(find_changes(points, {0.0, 100.0}, alarm_bound(50, 52, 0.05)).empty());
 }
 
@@ -132,8 +134,9 @@ TEST(ChangePoints_, RepairAfterWhichNothingIsNamed_IsFoundWhileThatLasts) {
 
 /// Of many diagnoses that see nothing all count in the level, though they are one in an alarm.
 TEST(ChangePoints_, OneBadWeekOfMany_HardlyMovesTheLevel) {
-    std::vector<Point> points;
-    for (int week = 0; week < 52; ++week) points.push_back({static_cast<double>(week), 0.0, 0.1, 0.458});
+    std::vector<Point> points(52);
+    for (int week = 0; week < 52; ++week)
+        points[static_cast<std::size_t>(week)] = {static_cast<double>(week), 0.0, 0.1, 0.458};
     points[20] = {20.0, 6.0, 0.1};
     const Scatter scatter{0.18, 100.0};
     const auto changes = find_changes(points, scatter, alarm_bound(50, 52, 0.05));
@@ -174,7 +177,7 @@ TEST(ChangePoints_, AllLooksOfManyYears_RaiseNoMoreAlarmsThanTheBoundAllows) {
         for (double& value : values) value = normal(generator);
         alarms += find_changes(weekly(values, 1.0), {0.0, 1e5}, 200.0).empty() ? 0 : 1;
     }
-    EXPECT_LE(alarms, units * looks / 200 + 3 * std::sqrt(units * looks / 200.0)) << "seed " << seed;
+    EXPECT_LE(alarms, units * looks / 200.0 + 3.0 * std::sqrt(units * looks / 200.0)) << "seed " << seed;
 }
 
 /// While three are off, the spread of units explains each of them.

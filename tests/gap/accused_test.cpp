@@ -14,6 +14,7 @@ using namespace gap;
 
 std::vector<std::string> blocks(const std::vector<BlockProbability>& where) {
     std::vector<std::string> names;
+    names.reserve(where.size());
     for (const BlockProbability& accused : where) names.push_back(accused.block);
     return names;
 }

@@ -38,8 +38,7 @@ TEST(Notes, DiscrepancyThatDoesNotMatter_IsStatedWithItsLimit) {
 
 TEST(Notes, EffectThatTheRigFileStates_IsStatedAsWhatBothComeTo) {
     Rig rig = reference_rig();
-    rig.effects.push_back(
-        {.name = "hall_offset", .parameters = {{.name = "offset_V", .value = 0.02}}});
+    rig.effects.push_back({.name = "hall_offset", .parameters = {{.name = "offset_V", .value = 0.02}}});
     const Evidence evidence(rig, testing::recordings_of({}, {"rest"}));
     Diagnosis diagnosis;
     diagnosis.hypothesis = effects({"hall_offset:offset_V=0.015"});

@@ -18,9 +18,10 @@ constexpr int ticks = 100;
 
 /// Prediction minus count where the carried state was off by these, in counts.
 std::vector<double> errors_of(double place_count, double coast_count) {
-    std::vector<double> errors;
+    std::vector<double> errors(ticks);
     for (int k = 0; k < ticks; ++k)
-        errors.push_back(place_count + coast_count * (1.0 - std::exp(-k / ticks_per_tau)));
+        errors[static_cast<std::size_t>(k)] =
+            place_count + coast_count * (1.0 - std::exp(-k / ticks_per_tau));
     return errors;
 }
 

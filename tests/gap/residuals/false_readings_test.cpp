@@ -18,9 +18,8 @@ using namespace gap;
 using testing::effects;
 
 std::optional<Signal> displacing(std::initializer_list<std::string_view> truth,
-                                 std::initializer_list<std::string_view> runs = {"macro-pulses",
-                                                                                 "macro-square",
-                                                                                 "micro-steps"}) {
+                                 std::initializer_list<std::string_view> runs = {
+                                     "macro-pulses", "macro-square", "micro-steps"}) {
     const Evidence evidence = testing::campaign(effects(truth), runs);
     return sensor_that_displaces_tags(evidence, evidence.errors({}, everything(evidence)));
 }
@@ -35,7 +34,8 @@ TEST(FalseReadings, SensorThatReadsFalsely_DisplacesTheTags) {
 TEST(FalseReadings, SensorThatReadsFalsely_IsKnownBesideAStageThatIsDrivenOtherwise) {
     EXPECT_EQ(displacing({"hall_nonlinearity:cubic_shift=0.05", "viscous_friction:damping_V_s_per_mm=4e-6"}),
               Signal::hall);
-    EXPECT_EQ(displacing({"hall_gain:factor=1.05", "viscous_friction:damping_V_s_per_mm=4e-4"}), Signal::hall);
+    EXPECT_EQ(displacing({"hall_gain:factor=1.05", "viscous_friction:damping_V_s_per_mm=4e-4"}),
+              Signal::hall);
     EXPECT_EQ(displacing({"encoder_scale:factor=1.005", "heater_gain:factor=1.05"}), Signal::encoder);
 }
 
