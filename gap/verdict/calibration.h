@@ -14,25 +14,28 @@
 //     seed 7672, 20 cases of one, two, withheld, unlisted, commit ac289236167c
 //     seed 7673, 20 cases of one, two, withheld, unlisted, commit ac289236167c
 //     seed 7674, 20 cases of one, two, withheld, unlisted, commit ac289236167c
+//     seed 7675, 20 cases of one, two, withheld, unlisted, commit ac289236167c
 //     seed 7690, 8 cases of rough, commit ac289236167c
 //     seed 7691, 8 cases of rough, commit ac289236167c
 //     seed 7692, 8 cases of rough, commit ac289236167c
 //     seed 7693, 8 cases of rough, commit ac289236167c
+//     seed 7694, 8 cases of rough, commit ac289236167c
+//     seed 7695, 8 cases of rough, commit ac289236167c
 #include <array>
 
 namespace fidservo::gap {
 
-inline constexpr double calibrated_offset = -2.935;
+inline constexpr double calibrated_offset = -2.636;
 inline constexpr std::array calibrated_coefficients{
-    0.106,  // weight_logit
+    0.100,  // weight_logit
     0.000,  // log_discrepancy
-    0.071,  // log_own_discrepancy
-    0.654,  // log_gain
-    0.057,  // log_gap_left
-    0.413,  // log_names
-    0.371,  // halves_agree
-    1.323,  // leaves_nothing
-    0.967,  // leaves_no_dependence
+    0.133,  // log_own_discrepancy
+    0.753,  // log_gain
+    0.024,  // log_gap_left
+    0.314,  // log_names
+    0.375,  // halves_agree
+    1.182,  // leaves_nothing
+    1.040,  // leaves_no_dependence
 };
 
 }  // namespace fidservo::gap
