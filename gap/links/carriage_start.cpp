@@ -37,7 +37,7 @@ double start_loss(std::span<const double> error_count, const StartCorrection& do
 
 StartCorrection estimate_start(std::span<const double> error_count, const StartCorrection& done,
                                double ticks_per_tau) {
-    constexpr int most_steps = 30;
+    constexpr int most_steps = 20;  // what is not at the minimum then is within a fifth of a nat of it
     constexpr double enough_count = 1e-4;
     const double weight = 1.0 / (noise_count * noise_count);
     const double decay = std::exp(-1.0 / ticks_per_tau);
