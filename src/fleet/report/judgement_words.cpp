@@ -87,6 +87,7 @@ std::string whose_words(const FleetFindings& findings, const Judgement& judgemen
 
 std::string nothing_stands_out(const FleetFindings& findings) {
     constexpr std::size_t fewest = 3;
+    if (findings.unexplained.diagnosed == 0) return "Nothing was diagnosed.";
     std::vector<std::string> named;
     for (const QuantityFindings& found : findings.quantities)
         for (const UnitFindings& unit : found.units)
@@ -121,15 +122,16 @@ std::string matter_sentence(const FleetFindings& findings, const Judgement& judg
         case Matter::deviation:
             break;
     }
-    return fmt::format("{}: {} is off {} by {} \u00b1 {} (95 %), {} floors.{}", cause, name,
-                       judgement.is_beside_others ? "what these units share with others" : "the rig file",
-                       change_words(quantity, judgement.size.value),
-                       three_digits(half_width(judgement.size) / quantity.floors_per_unit),
-                       three_digits(std::abs(judgement.size.value)),
-                       judgement.is_beside_others
-                           ? fmt::format(" It stands at {}; the rig file says {}.",
-                                         value_words(quantity, judgement.now), value_words(quantity, 0.0))
-                           : "");
+    const std::string than =
+        judgement.is_beside_others ? "differs from what the other units have" : "is off the rig file";
+    std::string sentence = fmt::format("{}: {} {} by {} \u00b1 {} (95 %), {} floors.", cause, name, than,
+                                       change_words(quantity, judgement.size.value),
+                                       three_digits(half_width(judgement.size) / quantity.floors_per_unit),
+                                       three_digits(std::abs(judgement.size.value)));
+    if (judgement.is_beside_others)
+        sentence += fmt::format(" It stands at {}; the rig file says {}.",
+                                value_words(quantity, judgement.now), value_words(quantity, 0.0));
+    return sentence;
 }
 
 std::string evidence_sentences(const FleetFindings& findings, const Judgement& judgement) {
