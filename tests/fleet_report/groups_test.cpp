@@ -122,7 +122,7 @@ TEST(JudgementWords, UnitThatAgreesWithTheRigFile_IsNotToBeAdjusted) {
     const auto odd = std::ranges::find(findings.judgements, Whose::unit, &Judgement::whose);
     ASSERT_NE(odd, findings.judgements.end());
     EXPECT_EQ(findings.units[odd->units.front()].name, "P-0008");
-    EXPECT_THAT(matter_sentence(findings, *odd), HasSubstr("off what these units share with others"));
+    EXPECT_THAT(matter_sentence(findings, *odd), HasSubstr("differs from what the other units have by"));
     EXPECT_THAT(matter_sentence(findings, *odd), Not(HasSubstr("off the rig file")));
     EXPECT_THAT(what_to_do(findings, *odd).front(), HasSubstr("Adjust nothing here"));
 }
