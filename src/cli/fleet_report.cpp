@@ -65,6 +65,7 @@ int report_fleet(const FleetReportOptions& options) {
     for (const fleet::Judgement& judgement : findings.judgements)
         fmt::print("{}. {}\n", fleet::whose_words(findings, judgement),
                    fleet::matter_sentence(findings, judgement));
+    for (const std::string& line : fleet::named_but_not_judged(collected.results)) fmt::print("{}\n", line);
     if (findings.judgements.empty()) fmt::print("{}\n", fleet::nothing_stands_out(findings));
     std::filesystem::path cured = options.fleet / "cured-rig.yaml";
     if (!options.rig_file.empty()) {

@@ -98,6 +98,22 @@ TEST(Unexplained, UnitsThatCouldNotBeDiagnosed_AreSaid_AndKeepWhatWasLeftBefore)
     EXPECT_THAT(page, Not(HasSubstr("Nothing. Go on")));
 }
 
+TEST(Unexplained, EffectThatTheCatalogueLacks_IsSaidToBeNamed) {
+    FleetResult result = left_with("P-1", 1.0, "explained");
+    result.effects.push_back({.effect = "air_drag",
+                              .block = "macro.friction",
+                              .probability = 0.9,
+                              .gap_removed = 0.99,
+                              .parameters = {},
+                              .indistinguishable_from = {}});
+    const Collected collected{{result, left_with("P-2", 1.0, "no-gap")}, {}};
+    const std::vector<std::string> lines = named_but_not_judged(collected.results);
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_THAT(lines.front(), HasSubstr("air_drag: named in 1 unit;"));
+    EXPECT_THAT(fleet_page("fleet", collected, findings_of(collected.results), {}),
+                HasSubstr("air_drag: named in 1 unit"));
+}
+
 TEST(Unexplained, LaterDiagnosisThatIsExplained_Counts) {
     FleetResult before = left_with("P-1", 9.0), after = left_with("P-1", 1.0, "explained");
     before.recorded_at_s = 1'772'409'600;

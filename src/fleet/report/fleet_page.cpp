@@ -200,6 +200,8 @@ std::string units_html(const std::vector<FleetResult>& results, const FleetFindi
 std::string not_judged_html(const Collected& collected, const FleetFindings& findings) {
     std::string items;
     for (const std::string& line : collected.damaged) items += fmt::format("<li>{}</li>", escaped(line));
+    for (const std::string& line : named_but_not_judged(collected.results))
+        items += fmt::format("<li>{}</li>", escaped(line));
     std::size_t untimed = 0, other_rig = 0;
     for (const FleetResult& result : collected.results) {
         if (!result.done)

@@ -13,6 +13,8 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace fidservo::fleet {
 namespace {
 
@@ -158,6 +160,25 @@ std::vector<QuantityOverFleet> quantities_over_fleet(const std::vector<FleetResu
         }
     }
     return all;
+}
+
+std::vector<std::string> named_but_not_judged(const std::vector<FleetResult>& results) {
+    std::map<std::string, std::set<std::string>> units_by_effect;
+    const auto is_listed = [](const std::string& name) {
+        return std::ranges::any_of(plant::effect_catalogue(),
+                                   [&](const plant::Effect* effect) { return effect->name == name; });
+    };
+    for (const FleetResult& result : results)
+        for (const NamedEffect& named : result.effects)
+            if (named.probability >= credible && !is_listed(named.effect))
+                units_by_effect[named.effect].insert(result.unit.value_or(result.campaign));
+    std::vector<std::string> lines;
+    for (const auto& [effect, units] : units_by_effect)
+        lines.push_back(
+            fmt::format("{}: named in {} {}; an effect that the catalogue lacks is not judged over "
+                        "the fleet: see the single diagnoses",
+                        effect, units.size(), units.size() == 1 ? "unit" : "units"));
+    return lines;
 }
 
 std::size_t quantities_looked_at() {

@@ -65,6 +65,10 @@ std::vector<UnitHistory> histories(const std::vector<FleetResult>& results);
 std::vector<QuantityOverFleet> quantities_over_fleet(const std::vector<FleetResult>& results,
                                                      const std::vector<UnitHistory>& units);
 
+/// A sentence for each effect that diagnoses name and the catalogue lacks, as one of an effects file: it is
+/// not judged over the fleet.
+std::vector<std::string> named_but_not_judged(const std::vector<FleetResult>& results);
+
 /// The number of size parameters in the catalogue: so many quantities are tested in each unit.
 std::size_t quantities_looked_at();
 
