@@ -61,13 +61,6 @@ gap::Support support_of(const Json& json, double gap_after) {
             .is_contested = json.at("contested")};
 }
 
-/// Whether an equation in its place is likelier than a name and has taken most of its probability
-/// (gap/proposal.h). Which of the two it is, held-out data decide, not the regression.
-bool is_replaced(const Json& found, const gap::Support& support) {
-    constexpr double most = 0.5;
-    return found.at("probability").get<double>() < most * gap::calibrated_probability(support);
-}
-
 /// Without those that have a rival, with which they share their probability (gap/verdict/standing.h).
 std::vector<Name> names_of(const Json& self_check) {
     std::vector<Name> names;
@@ -76,7 +69,7 @@ std::vector<Name> names_of(const Json& self_check) {
             const gap::Support support = support_of(found.at("support"), one.at("gap").at("after"));
             if (gap::has_a_rival(support)) continue;
             names.push_back({one.at("kind"), found.at("class"), gap::features_of(support), found.at("true"),
-                             is_replaced(found, support)});
+                             found.at("replaced")});
         }
     return names;
 }

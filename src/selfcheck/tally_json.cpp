@@ -43,6 +43,7 @@ Json json_of(const NamedEffect& named) {
             {"true", named.is_true},
             {"probability", number(named.probability)},
             {"support", support_json(named.support)},
+            {"replaced", named.is_replaced},
             {"gap", {{"before", number(named.gap_before)}, {"after", number(named.gap_after)}}}};
 }
 

@@ -2,6 +2,7 @@
 #include "src/selfcheck/tally/score.h"
 
 #include "gap/candidates/candidate.h"
+#include "gap/verdict/standing.h"
 #include "plant/effects/catalogue.h"
 
 #include <algorithm>
@@ -88,6 +89,12 @@ std::optional<double> removed_of_true(const TrueDiscrepancy& left, const gap::To
     return std::clamp((gap.before * gap.before - gap.after * gap.after) / removable, 0.0, 1.0);
 }
 
+/// Held-out data decide between a name and an equation in its place, after the name's own probability.
+bool is_replaced(const gap::FoundEffect& found) {
+    constexpr double most = 0.5;
+    return found.probability < most * gap::calibrated_probability(found.support);
+}
+
 }  // namespace
 
 std::set<std::string> classes_named(const gap::FoundEffect& found) {
@@ -115,7 +122,7 @@ Score score(const Label& label, const gap::Diagnosis& diagnosis, const gap::Evid
         const bool is_right = meet(truths, sets.back());
         const double gap_after = gap_left(score.before, found.gap_removed);
         score.named.push_back({found.effect, std::string(gap::class_of(found.effect)), is_right,
-                               found.probability, found.support, gap_before, gap_after});
+                               found.probability, found.support, is_replaced(found), gap_before, gap_after});
         gap_before = gap_after;
         score.any_right = score.any_right || is_right;
         score.is_confident_wrong = score.is_confident_wrong || (!is_right && found.probability >= limit);

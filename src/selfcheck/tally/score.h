@@ -28,6 +28,8 @@ struct NamedEffect {
     bool is_true;  ///< its set contains a true cause
     double probability;
     gap::Support support = {};
+    /// Whether an equation in its place is likelier and has taken most of its probability (gap/proposal.h).
+    bool is_replaced = false;
     double gap_before,
         gap_after;  ///< gap over all signals, in floors, with the effects before it, and with it in addition
 };
