@@ -85,12 +85,13 @@ class Errand {
 /// In Python's own thread: signals are heard, and progress is told, until the errand is done.
 void look_after(Errand& errand, const std::optional<py::function>& progress) {
     constexpr std::chrono::milliseconds period{50};
-    while (true) {
+    for (bool is_done = false; !is_done;) {
         {
             const py::gil_scoped_release others_may_run;
-            if (errand.is_done_within(period)) return;
+            is_done = errand.is_done_within(period);
         }
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        // Also what was told just before the end, which a short errand comes to within one period.
         if (const auto told = errand.news(); told && progress) (*progress)(told->what, told->share);
     }
 }
