@@ -173,6 +173,7 @@ std::vector<std::string> named_but_not_judged(const std::vector<FleetResult>& re
             if (named.probability >= credible && !is_listed(named.effect))
                 units_by_effect[named.effect].insert(result.unit.value_or(result.campaign));
     std::vector<std::string> lines;
+    lines.reserve(units_by_effect.size());
     for (const auto& [effect, units] : units_by_effect)
         lines.push_back(
             fmt::format("{}: named in {} {}; an effect that the catalogue lacks is not judged over "
