@@ -44,7 +44,7 @@ TEST(SlowDesignExperiment, DecidesWhatTheListCannot_AndTheSameWayEachTime) {
     const OpenQuestion question = open_question(evidence, diagnosis);
     const auto budget = std::make_shared<const gap::Budget>();
     const Judge judge(reference_rig(), question, {}, budget);
-    constexpr DesignEffort few{8, 1, {0, 12}};
+    constexpr DesignEffort few{16, 1, {0, 12}};
     const DesignedExperiment designed = design_experiment(judge, "designed", budget, few);
     ASSERT_TRUE(designed.best.has_value());
     const auto listed = best_of_list(judge, designed.decidable);
