@@ -94,13 +94,9 @@ bool is_hall_right_by_file(const Evidence& evidence) {
     const std::vector<Window>& windows = evidence.windows();
     const Wanted wanted = only_of(windows, everything(evidence), only(Signal::hall));
     const std::vector<double> squares = mean_squares(windows, evidence.errors({}, wanted));
-    double sum = 0.0, expected = 0.0;
-    for (std::size_t w = 0; w < windows.size(); ++w) {
-        if (wanted[w] == 0 || std::isnan(squares[w])) continue;
-        sum += squares[w];
-        expected += windows[w].expected_square;
-    }
-    return expected > 0.0 && sum < least_floors * least_floors * expected;
+    const std::vector<SignalGap> gaps = signal_gaps(evidence, squares, squares);
+    const auto hall = std::ranges::find(gaps, Signal::hall, &SignalGap::signal);
+    return hall != gaps.end() && !is_left(*hall);
 }
 
 }  // namespace
