@@ -44,11 +44,9 @@ std::optional<double> agreed(const std::vector<double>& values, const plant::Eff
 /// Adds those parameters that are no sizes.
 /// @return whether diagnoses agree on them
 bool add_agreed(const std::vector<FleetResult>& results, StatedEffect& cure) {
-    const auto catalogue = plant::effect_catalogue();
-    const auto effect =
-        std::ranges::find_if(catalogue, [&](const plant::Effect* one) { return one->name == cure.name; });
-    if (effect == catalogue.end()) return false;
-    for (const plant::EffectParameter& parameter : (*effect)->parameters) {
+    const plant::Effect* const effect = plant::find_effect(cure.name);
+    if (effect == nullptr) return false;
+    for (const plant::EffectParameter& parameter : effect->parameters) {
         const std::string name(parameter.name);
         if (parameter.is_size() ||
             std::ranges::find(cure.parameters, name, &StatedEffect::Parameter::name) != cure.parameters.end())

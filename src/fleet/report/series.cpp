@@ -164,13 +164,9 @@ std::vector<QuantityOverFleet> quantities_over_fleet(const std::vector<FleetResu
 
 std::vector<std::string> named_but_not_judged(const std::vector<FleetResult>& results) {
     std::map<std::string, std::set<std::string>> units_by_effect;
-    const auto is_listed = [](const std::string& name) {
-        return std::ranges::any_of(plant::effect_catalogue(),
-                                   [&](const plant::Effect* effect) { return effect->name == name; });
-    };
     for (const FleetResult& result : results)
         for (const NamedEffect& named : result.effects)
-            if (named.probability >= credible && !is_listed(named.effect))
+            if (named.probability >= credible && plant::find_effect(named.effect) == nullptr)
                 units_by_effect[named.effect].insert(result.unit.value_or(result.campaign));
     std::vector<std::string> lines;
     lines.reserve(units_by_effect.size());
