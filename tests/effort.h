@@ -5,14 +5,18 @@
 
 namespace fidservo::testing {
 
+/// Whether the address or thread sanitizer is compiled in. Each of them maps terabytes of addresses, so that
+/// no limit on a process's address space can be tried.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool has_sanitizer = true;
+#else
+inline constexpr bool has_sanitizer = false;
+#endif
+
 /// How many cases a test draws. A sanitizer slows every one of them five to ten times, and what it looks for
 /// shows in the first ones.
-constexpr int cases([[maybe_unused]] int all, [[maybe_unused]] int under_sanitizer) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    return under_sanitizer;
-#else
-    return all;
-#endif
+constexpr int cases(int all, int under_sanitizer) {
+    return has_sanitizer ? under_sanitizer : all;
 }
 
 /// Whether the environment has FIDSERVO_DRAWS=all (./run test --all-draws).

@@ -180,6 +180,7 @@ TEST(SlowRenderedCalibration, ThirtyViews_GiveTheLensAndDisplacementsOfHundredth
 TEST(SlowRenderedCalibration, PlateThatIsNeverTilted_DoesNotTellTheFocalLength) {
     const Plate plate = calibration_plate();
     std::vector<TargetImage> images;
+    images.reserve(8);
     for (int k = 0; k < 8; ++k)
         images.push_back(rendered(plate, true_camera().geometry, 0.4 * k, 1, static_cast<std::uint64_t>(k)));
     const auto found = calibrated(images, plate);

@@ -47,6 +47,7 @@ inline std::vector<StageShot> synthetic_survey(const Rig& truth, std::uint64_t s
     SyntheticStands stands(truth, seed, corner_std_px);
     NoiseStream places(seed, "places");
     std::vector<StageShot> shots;
+    shots.reserve(static_cast<std::size_t>(quick_plan.travel));
     const double parked_mm = 2.0 + 0.05 * places.uniform();
     for (int i = 0; i < quick_plan.travel; ++i)
         shots.push_back(stands.at(StageMove::travel, 2.0 + 194.0 * (i + places.uniform()) / quick_plan.travel,

@@ -3,6 +3,7 @@
 #include "src/fleet/workers.h"
 
 #include "core/input_error.h"
+#include "tests/effort.h"
 #include "tests/src/temporary_folder.h"
 
 #include <cstdlib>
@@ -71,6 +72,7 @@ TEST(Workers, Crash_IsTriedThreeTimesThenSaidAndTheOthersGoOn) {
     const TaskWork work{.work =
                             [&](std::size_t task) {
                                 count_attempt(folder, task);
+                                ::signal(SIGSEGV, SIG_DFL);  // a sanitizer's handler exits instead
                                 if (task == 2) ::raise(SIGSEGV);
                                 if (task == 4) std::abort();
                                 return made("");
@@ -103,6 +105,7 @@ TEST(Workers, KilledProcess_IsStartedAgainAndLeftUndoneAfterThree) {
 }
 
 TEST(Workers, MoreMemoryThanAllowed_LeavesTheTaskUndone) {
+    if (testing::has_sanitizer) GTEST_SKIP() << "a sanitizer's own maps exceed any limit";
     const TaskWork work{.work =
                             [&](std::size_t task) {
                                 const std::vector<char> much((task + 1) * 400'000'000, 'x');

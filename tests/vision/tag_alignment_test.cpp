@@ -146,6 +146,7 @@ int differences(const Cells& a, const Cells& b) {
 
 TEST(TagAlignment, NearestCodesMisprintedTowardsEachOther_AreRefusedFromThreeBitsOn) {
     std::vector<Cells> book;
+    book.reserve(book_size);
     for (int id = 0; id < book_size; ++id) book.push_back(cells_of(id));
     constexpr std::uint64_t seed = 15;
     Draw random(seed);

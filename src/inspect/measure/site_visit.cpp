@@ -5,6 +5,7 @@
 #include "core/input_error.h"
 #include "core/result.h"
 #include "core/units.h"
+#include "src/files/disk/output_paths.h"
 #include "src/session/rig_check.h"
 
 #include <utility>

@@ -27,8 +27,10 @@ HeaterRun heated(const HeaterParameters& heater, double half_s, std::uint64_t se
     constexpr double tick_s = 0.5;
     HeaterRun run{.tick_s = tick_s, .command = {}, .reading = {}};
     const auto half = static_cast<int>(half_s / tick_s);
-    for (int k = 0; k < 8 * half; ++k)
-        run.command.push_back((k / half) % 2 == 0 ? 1.0 + 0.4 * static_cast<double>(k / (2 * half)) : 0.0);
+    for (int k = 0; k < 8 * half; ++k) {
+        const int step = k / half;
+        run.command.push_back(step % 2 == 0 ? 1.0 + 0.2 * step : 0.0);
+    }
     run.reading = predict_temperature(heater, run);
     run.start_degC = run.reading.front();
     NoiseStream noise(seed, "thermometer");
