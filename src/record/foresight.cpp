@@ -7,6 +7,7 @@
 #include "src/simulation/simulate.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -58,6 +59,19 @@ std::optional<std::string> why_not(const Rig& rig, const Experiment& experiment,
     if (auto beyond = end_of_travel(rig, experiment, recording)) return beyond;
     if (!rig.micro || !wire_limit_degC) return std::nullopt;
     return overheating(rig, recording, *wire_limit_degC);
+}
+
+DrawnExperiment draw_for(const Rig& rig, std::string_view kind, std::uint64_t seed,
+                         std::string_view recording_name, std::optional<double> wire_limit_degC) {
+    constexpr int more_draws = 7;
+    DrawnExperiment first{make_experiment(kind, rig, seed, recording_name), {}};
+    first.why_not = why_not(rig, first.experiment, wire_limit_degC);
+    if (!first.why_not) return first;
+    for (int k = 1; k <= more_draws; ++k) {
+        Experiment next = make_experiment(kind, rig, seed, fmt::format("{}/{}", recording_name, k));
+        if (!why_not(rig, next, wire_limit_degC)) return {std::move(next), {}};
+    }
+    return first;
 }
 
 }  // namespace fidservo

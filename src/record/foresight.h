@@ -4,8 +4,10 @@
 #include "core/recording.h"
 #include "src/simulation/experiments.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace fidservo {
 
@@ -20,5 +22,16 @@ std::optional<std::string> why_not(const Rig& rig, const Experiment& experiment,
 /// The same from a recording that was simulated beforehand, with any model of the rig.
 std::optional<std::string> why_not(const Rig& rig, const Experiment& experiment, const Recording& recording,
                                    std::optional<double> wire_limit_degC);
+
+/// An experiment whose excitation was drawn for a rig.
+struct DrawnExperiment {
+    Experiment experiment;
+    std::optional<std::string> why_not;  ///< why the rig cannot do it; empty if it can
+};
+
+/// The first of several draws of a kind of experiment that a rig can do; where it can do none of them, the
+/// first. The first draw is that of make_experiment() with the same arguments, which `simulate` records.
+DrawnExperiment draw_for(const Rig& rig, std::string_view kind, std::uint64_t seed,
+                         std::string_view recording_name, std::optional<double> wire_limit_degC);
 
 }  // namespace fidservo

@@ -60,14 +60,27 @@ PlannedRun planned(const ExperimentOptions& options, const Rig& rig, const std::
     return {name, folder, std::move(experiment), std::move(request)};
 }
 
+/// The experiment of a kind or of a file.
+DrawnExperiment one_experiment(const ExperimentOptions& options, const Rig& rig,
+                               std::optional<double> limit_degC) {
+    const std::string& asked = options.experiment;
+    if (!is_experiment_file(asked))
+        return draw_for(rig, asked, options.session.seed, asked + "-1", limit_degC);
+    Experiment experiment = load_experiment(asked, rig);
+    auto why = why_not(rig, experiment, limit_degC);
+    return {std::move(experiment), std::move(why)};
+}
+
 /// What each of a campaign's experiments commands, but for those that the rig cannot do.
 RecordPlan campaign(const ExperimentOptions& options, const Rig& rig, std::optional<double> limit_degC) {
     RecordPlan plan;
-    for (auto& [name, experiment] : planned_campaign(rig, options.session.seed))
-        if (const auto why = why_not(rig, experiment, limit_degC))
-            plan.left_out.push_back(fmt::format("{}: {}", name, *why));
+    for (const auto& [kind, name] : campaign_runs(rig)) {
+        DrawnExperiment drawn = draw_for(rig, kind, options.session.seed, name, limit_degC);
+        if (drawn.why_not)
+            plan.left_out.push_back(fmt::format("{}: {}", name, *drawn.why_not));
         else
-            plan.runs.push_back(planned(options, rig, name, options.out / name, std::move(experiment)));
+            plan.runs.push_back(planned(options, rig, name, options.out / name, std::move(drawn.experiment)));
+    }
     if (plan.runs.empty())
         throw InputError(fmt::format("campaign: the rig {} can do none of it: {}", rig.name,
                                      fmt::join(plan.left_out, "; ")));
@@ -93,12 +106,12 @@ RecordPlan plan_recordings(const ExperimentOptions& options, const Rig& rig, con
                         options.session.rig_file.string(), rig.macro.low_mm, rig.macro.high_mm));
     const auto limit_degC = wire_limit_degC(options.session, rig);
     if (is_campaign(options)) return campaign(options, rig, limit_degC);
-    auto [name, experiment] = planned_experiment(options.experiment, rig, options.session.seed);
-    if (const auto why = why_not(rig, experiment, limit_degC))
+    DrawnExperiment drawn = one_experiment(options, rig, limit_degC);
+    if (drawn.why_not)
         throw InputError(
-            fmt::format("{}: the rig {} cannot do it: {}{}", options.experiment, rig.name, *why,
-                        is_experiment_file(options.experiment) ? "" : "; another --seed draws another"));
-    return {{planned(options, rig, name, options.out, std::move(experiment))}, {}};
+            fmt::format("{}: the rig {} cannot do it: {}", options.experiment, rig.name, *drawn.why_not));
+    const std::string name = drawn.experiment.kind + "-1";
+    return {{planned(options, rig, name, options.out, std::move(drawn.experiment))}, {}};
 }
 
 std::vector<PlannedRun> missing_runs(const RecordPlan& plan) {

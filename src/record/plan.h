@@ -37,7 +37,8 @@ struct RecordPlan {
 };
 
 /// The recordings that are asked for, whether they are there or not: for the same seed and rig the names and
-/// the excitations of `simulate`. Throws InputError where the rig cannot do the experiment, or none of the
+/// the excitations of `simulate`, but for those that the rig cannot do and of which another draw it can
+/// (draw_for). Throws InputError where the rig cannot do the experiment, or none of the
 /// campaign.
 RecordPlan plan_recordings(const ExperimentOptions& options, const Rig& rig, const Plate& plate);
 

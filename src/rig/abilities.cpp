@@ -4,11 +4,9 @@
 #include "core/rig.h"
 #include "src/record/foresight.h"
 #include "src/simulation/experiments.h"
-#include "src/simulation/planned_experiments.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,17 +28,10 @@ std::vector<std::string> missing_for_motion(const Rig& rig, bool is_plate_elsewh
     return missing;
 }
 
-/// Why an experiment of a kind would be refused, by simulation; empty if one of a few draws would not.
+/// Why `record` would refuse an experiment of a kind, by simulation; empty if it would not.
 std::string why_not_recorded(const Rig& rig, std::string_view kind) {
-    constexpr std::uint64_t seeds = 4;
-    std::string reason;
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const PlannedExperiment planned = planned_experiment(std::string(kind), rig, seed);
-        const auto why = why_not(rig, planned.experiment, std::nullopt);
-        if (!why) return {};
-        reason = *why;
-    }
-    return reason;
+    constexpr std::uint64_t seed = 1;
+    return draw_for(rig, kind, seed, fmt::format("{}-1", kind), std::nullopt).why_not.value_or("");
 }
 
 std::string listed(const std::vector<std::string>& keys) {

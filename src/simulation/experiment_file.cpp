@@ -180,7 +180,7 @@ Experiment read_experiment(const YamlValue& root, const Rig& rig) {
     experiment.carriage_mm = root.at("carriage_mm").number({rig.macro.low_mm, rig.macro.high_mm});
     read_macro(root, rig, experiment);
     read_micro(root, rig, experiment);
-    if (experiment.duration_s == 0.0) (void)root.at("macro");
+    if (experiment.duration_s == 0.0) root.fail("neither macro nor micro is given: one of them must be");
     return experiment;
 }
 

@@ -71,6 +71,19 @@ TEST(RecordPlan, FileOfOnesOwn_IsRecordedUnderItsName) {
     EXPECT_EQ(planned.runs[0].name, "slow-ramp-1");
 }
 
+TEST(RecordPlan, DrawThatWouldLeaveTheTravel_IsDrawnAgain) {
+    ExperimentOptions options = options_for("macro-sweep");
+    options.session.seed = 1;
+    const Experiment refused = make_experiment("macro-sweep", reference(), 1, "macro-sweep-1");
+    ASSERT_TRUE(why_not(reference(), refused, std::nullopt));
+    const RecordPlan planned = plan(options, reference());
+    ASSERT_EQ(planned.runs.size(), 1u);
+    EXPECT_EQ(planned.runs[0].name, "macro-sweep-1");
+    EXPECT_FALSE(why_not(reference(), planned.runs[0].experiment, std::nullopt));
+    options.experiment = "campaign";
+    EXPECT_TRUE(plan(options, reference()).left_out.empty());
+}
+
 TEST(RecordPlan, TravelTooShort_IsRefusedAndLeftOutOfACampaign) {
     Rig rig = reference();
     rig.macro.high_mm = 40.0;

@@ -191,7 +191,7 @@ TEST(ExperimentFile, WhatIsNoPiece_IsRefused) {
     expect_pieces(refusal("macro: [ { constant_V: 1 } ]"), {"macro[0].duration_s: missing"});
     expect_pieces(refusal("macro: [ { hold: last, duration_s: 1 } ]"), {"no piece before"});
     expect_pieces(refusal("macro: []"), {"one piece at least"});
-    expect_pieces(refusal(""), {"macro: missing"});
+    expect_pieces(refusal(""), {"neither macro nor micro is given"});
     expect_pieces(refusal("macro_loop: pid\nmacro: [ { constant_V: 1, duration_s: 1 } ]"),
                   {"macro_loop: pid:", "nonlinear_pd, benchmark_pid"});
     expect_pieces(refusal("micro_loop: pi"), {"micro_loop", "unknown key"});
