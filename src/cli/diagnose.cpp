@@ -6,6 +6,7 @@
 #include "src/cli/commands.h"
 #include "src/cli/self_check.h"
 #include "src/compare/comparison.h"
+#include "src/compare/same_rig.h"
 #include "src/diagnose/designed_experiment.h"
 #include "src/diagnose/diagnose_recordings.h"
 #include "src/diagnose/diagnosis_json.h"
@@ -125,6 +126,8 @@ int compare_sets(const DiagnoseOptions& options, const Rig& rig) {
         throw InputError("--compare: takes --rig and --json only");
     diagnose::ReadRecordings a = diagnose::read_recordings({options.compare[0]});
     diagnose::ReadRecordings b = diagnose::read_recordings({options.compare[1]});
+    for (std::string& note : compare::notes_on_rigs(options.compare[0], options.compare[1]))
+        b.notes.push_back(std::move(note));
     diagnose::SearchProgress progress(2.0 * diagnose::half_a_minute.whole_s);
     const compare::Comparison comparison =
         compare::compare(rig, std::move(a), std::move(b), interrupt_requested,

@@ -43,6 +43,20 @@ TEST(DiagnoseCommand, Report_IsWrittenOnce) {
     EXPECT_THAT(again.err, HasSubstr("--report: report.html: exists already"));
 }
 
+TEST(DiagnoseCommand, ComparedSetsOfTwoUnits_AreNoted) {
+    const TemporaryFolder folder;
+    for (const char* unit : {"P-7", "P-8"}) {
+        ASSERT_EQ(run_program({"simulate", "rest", "--out", unit}, folder.path()).exit_code, 0);
+        std::ofstream(folder / unit / "recording.yaml", std::ios::app) << "unit: \"" << unit << "\"\n";
+    }
+    const ProgramRun run =
+        run_program({"diagnose", "--compare", "P-7", "P-8", "--json", "compared.json"}, folder.path());
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out,
+                HasSubstr("note on B: these recordings state more than one rig (unit: P-7 in A, P-8 in B)"));
+    EXPECT_THAT(testing::text_of(folder / "compared.json"), HasSubstr("unit: P-7 in A, P-8 in B"));
+}
+
 TEST(DiagnoseCommand, ExperimentFile_HasAnEndingThatRecordKnows) {
     const TemporaryFolder folder;
     const ProgramRun run = run_program({"diagnose", "rest", "--write-experiment", "next.txt"}, folder.path());
