@@ -140,10 +140,10 @@ TEST(Censored_, UnitsNamedNowAndThen_ScatterIsFound) {
     constexpr unsigned seed = 13;
     std::mt19937_64 generator(seed);
     std::normal_distribution<double> normal;
-    std::vector<std::vector<Point>> units;
+    std::vector<WithinScatter::Stretches> units;
     for (int unit = 0; unit < 200; ++unit) {
         const double level = 0.6 * normal(generator);
-        std::vector<Point>& points = units.emplace_back();
+        std::vector<Point>& points = units.emplace_back().emplace_back();
         for (int week = 0; week < 10; ++week) {
             const double value = level + std::hypot(0.1, 0.15) * normal(generator);
             points.push_back({static_cast<double>(week), 0.0, 0.1, 0.458});

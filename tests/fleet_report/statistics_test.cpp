@@ -19,6 +19,13 @@ std::vector<Point> weekly(const std::vector<double>& values, double std) {
     return points;
 }
 
+/// Units that have one level each.
+std::vector<WithinScatter::Stretches> uncut(const std::vector<std::vector<Point>>& units) {
+    std::vector<WithinScatter::Stretches> all;
+    for (const std::vector<Point>& unit : units) all.push_back({unit});
+    return all;
+}
+
 TEST(Population_, EqualErrors_SpreadIsTheSampleVarianceLessTheErrors) {
     const std::vector<Level> units{{1.0, 0.5}, {2.0, 0.5}, {4.0, 0.5}, {5.0, 0.5}};
     const Population population = population_of(units);
@@ -50,7 +57,7 @@ TEST(WithinScatter_, ManyUnits_FindsWhatTheyScatterBy) {
         for (double& value : values) value = level + std::hypot(0.1, 0.4) * normal(generator);
         units.push_back(weekly(values, 0.1));
     }
-    const WithinScatter scatter(units);
+    const WithinScatter scatter(uncut(units));
     const Scatter common = common_scatter({&scatter, 1}, std::vector<std::optional<std::size_t>>(1));
     EXPECT_GE(common.degrees, 60.0);
     EXPECT_NEAR(scatter.of_all(common).std, 0.4, 0.05);
@@ -59,7 +66,7 @@ TEST(WithinScatter_, ManyUnits_FindsWhatTheyScatterBy) {
 TEST(WithinScatter_, UnitThatDrifts_IsJudgedByTheOthers) {
     std::vector<std::vector<Point>> units(10, weekly({0.0, 0.1, 0.0, -0.1, 0.0, 0.1}, 0.1));
     units[3] = weekly({0.0, 5.0, 10.0, 15.0, 20.0, 25.0}, 0.1);
-    const WithinScatter scatter(units);
+    const WithinScatter scatter(uncut(units));
     EXPECT_LT(scatter.without(3, {0.0, 100.0}).std, 0.1);
     EXPECT_GT(scatter.without(4, {0.0, 100.0}).std, 1.0);
 }

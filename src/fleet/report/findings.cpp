@@ -3,6 +3,7 @@
 
 #include "src/fleet/report/groups.h"
 #include "src/fleet/report/statistics/censored.h"
+#include "src/fleet/report/statistics/common_changes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +19,15 @@ std::span<const Point> timed(const UnitFindings& unit) {
     return std::span(unit.series.points).subspan(unit.series.untimed);
 }
 
-WithinScatter scatter_of(const QuantityFindings& found) {
+/// @param looks_a_year, bound  as in FleetFindings
+WithinScatter scatter_of(const QuantityFindings& found, double looks_a_year, double bound) {
+    constexpr double weeks_a_year = 365.25 / 7.0;
     std::vector<std::vector<Point>> points;
     for (const UnitFindings& unit : found.units) points.emplace_back(timed(unit).begin(), timed(unit).end());
-    return WithinScatter(points);
+    const std::vector<double> cuts = common_cuts(points, weeks_a_year / looks_a_year, bound);
+    std::vector<WithinScatter::Stretches> stretches;
+    for (const std::vector<Point>& unit : points) stretches.push_back(stretches_of(unit, cuts));
+    return WithinScatter(stretches);
 }
 
 /// Of all quantities, for each unit of the fleet by the others.
@@ -183,7 +189,13 @@ void add_judgements(const std::vector<FleetResult>& results, const QuantityFindi
             return share.whose != Whose::unit && overlap(change.units, judgement.units) >= much_the_same;
         });
         if (together != changes.end()) {
+            if (together->whose == Whose::all) {
+                judgement.whose = Whose::all;
+                judgement.group.clear();
+            }
             judgement.matter = together->matter;
+            judgement.units = together->units;
+            judgement.now = together->now;
             judgement.since = together->since;
             judgement.found_s = together->found_s;
             judgement.size = together->size;
@@ -216,7 +228,7 @@ FleetFindings findings_of(const std::vector<FleetResult>& results) {
     std::vector<WithinScatter> scatters;
     for (QuantityOverFleet& fleet : quantities_over_fleet(results, findings.units)) {
         findings.quantities.push_back(unjudged(std::move(fleet)));
-        scatters.push_back(scatter_of(findings.quantities.back()));
+        scatters.push_back(scatter_of(findings.quantities.back(), findings.looks_a_year, findings.bound));
     }
     const std::vector<Scatter> common = scatter_by_others(findings, scatters);
     for (std::size_t q = 0; q < findings.quantities.size(); ++q) {

@@ -72,9 +72,12 @@ std::string unit_names(const FleetFindings& findings, const std::vector<std::siz
 }
 
 std::string whose_words(const FleetFindings& findings, const Judgement& judgement) {
+    const std::size_t units = findings.quantities[judgement.quantity].units.size();
     switch (judgement.whose) {
         case Whose::all:
-            return judgement.matter == Matter::deviation ? "All of them: the model is wrong" : "All units";
+            if (judgement.matter == Matter::deviation) return "All of them: the model is wrong";
+            if (judgement.units.size() == units) return "All units";
+            return fmt::format("{} of {} units, since the same date", judgement.units.size(), units);
         case Whose::group:
             return judgement.group.empty()
                        ? fmt::format("{} units, since the same date", judgement.units.size())

@@ -98,26 +98,33 @@ std::array<double, scatter_scales.size()> log_weights_of_scales(double degrees) 
     return weights;
 }
 
-WithinScatter::WithinScatter(std::span<const std::vector<Point>> units)
+WithinScatter::WithinScatter(std::span<const Stretches> units)
     : sum_(sigma_count * scale_degrees.size(), 0.0) {
-    for (const std::vector<Point>& points : units) {
-        double unnamed = 0.0, variances = 0.0;
-        for (const Point& point : points)
-            if (!point.named()) {
-                unnamed += 1.0;
-                variances += std::pow(as_normal(point).std, 2);
-            }
-        unnamed_of_unit_.push_back(unnamed);
-        unnamed_variance_of_unit_.push_back(variances);
-        const double named = static_cast<double>(points.size()) - unnamed;
-        const bool counts = named > 0.0 && points.size() > 1;
-        of_unit_.push_back(!counts         ? std::vector<double>(sum_.size(), 0.0)
-                           : unnamed > 0.0 ? log_likelihoods_with_limits(points)
-                                           : log_likelihoods(points));
-        contrasts_of_unit_.push_back(!counts ? 0.0 : unnamed > 0.0 ? named : named - 1.0);
+    for (const Stretches& stretches : units) {
+        of_unit_.emplace_back(sum_.size(), 0.0);
+        contrasts_of_unit_.push_back(0.0);
+        unnamed_of_unit_.push_back(0.0);
+        unnamed_variance_of_unit_.push_back(0.0);
+        for (const std::vector<Point>& stretch : stretches) add_to_last_unit(stretch);
         contrasts_ += contrasts_of_unit_.back();
         for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += of_unit_.back()[k];
     }
+}
+
+void WithinScatter::add_to_last_unit(const std::vector<Point>& stretch) {
+    double unnamed = 0.0;
+    for (const Point& point : stretch)
+        if (!point.named()) {
+            unnamed += 1.0;
+            unnamed_variance_of_unit_.back() += std::pow(as_normal(point).std, 2);
+        }
+    unnamed_of_unit_.back() += unnamed;
+    const double named = static_cast<double>(stretch.size()) - unnamed;
+    if (named == 0.0 || stretch.size() < 2) return;
+    const std::vector<double> over_grid =
+        unnamed > 0.0 ? log_likelihoods_with_limits(stretch) : log_likelihoods(stretch);
+    for (std::size_t k = 0; k < over_grid.size(); ++k) of_unit_.back()[k] += over_grid[k];
+    contrasts_of_unit_.back() += unnamed > 0.0 ? named : named - 1.0;
 }
 
 Scatter WithinScatter::best(const std::vector<double>& sum, double contrasts, const Scatter& common) {

@@ -15,6 +15,9 @@
 // Where some diagnoses of a unit do not name the quantity, their factors are those of censored.h, the level
 // is integrated over numerically, and phi is summed over. Units of which no diagnosis names it say nothing.
 //
+// Where many units have changed at one time, each stretch between is as if of a unit of its own
+// (common_changes.h).
+//
 // sigma maximises the sum over units; nu that over all quantities, too. A unit is judged by what the others
 // say: were it to drift, its own drift would pass for scatter. Sources: restricted likelihood: Patterson,
 // Thompson, Biometrika 58, 1971; scales that are drawn from an inverse chi^2: Smyth, Stat. Appl. Genet. Mol.
@@ -45,8 +48,11 @@ std::array<double, scatter_scales.size()> log_weights_of_scales(double degrees);
 /// The scatter of one quantity in all units.
 class WithinScatter {
   public:
-    /// @param units  the points of each unit, by time
-    explicit WithinScatter(std::span<const std::vector<Point>> units);
+    /// The points of a unit in stretches, in each of which it has one level.
+    using Stretches = std::vector<std::vector<Point>>;
+
+    /// @param units  by time
+    explicit WithinScatter(std::span<const Stretches> units);
 
     /// The scatter from all units.
     /// @param common  of common_scatter()
@@ -57,6 +63,8 @@ class WithinScatter {
     void leave_out(std::size_t unit);
 
   private:
+    void add_to_last_unit(const std::vector<Point>& stretch);
+
     friend Scatter common_scatter(std::span<const WithinScatter> quantities,
                                   std::span<const std::optional<std::size_t>> unit);
     static Scatter best(const std::vector<double>& sum, double contrasts, const Scatter& common);
