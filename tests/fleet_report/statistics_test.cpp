@@ -203,7 +203,7 @@ TEST(Attribution_, SeveralOddUnits_DoNotHideEachOther) {
         ASSERT_EQ(found.shares.size(), odd);
         for (const Share& share : found.shares) {
             EXPECT_EQ(share.whose, Whose::unit);
-            EXPECT_EQ(share.which % 9, 0U);
+            EXPECT_EQ(*share.which % 9, 0U);
             EXPECT_NEAR(std::abs(share.size.value), 10.0, 0.7);
             EXPECT_GT(share.log_odds, std::log(19.0));
         }

@@ -7,8 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
+
+#include <fmt/format.h>
 
 namespace fidservo::fleet {
 namespace {
@@ -92,7 +93,7 @@ void attribute_and_pool(const std::vector<FleetResult>& results, const std::vect
                         QuantityFindings& found) {
     found.groups = groups_of(results, histories, found.units);
     std::vector<Level> levels;
-    for (const UnitFindings& unit : found.units) levels.push_back(unit.level);
+    for (const UnitFindings& unit : found.units) levels.push_back(unit.known);
     std::vector<std::vector<std::size_t>> sets;
     for (const UnitGroup& group : found.groups) sets.push_back(group.units);
     found.attribution = attribute(levels, sets, static_cast<double>(quantities_looked_at()));
@@ -106,17 +107,9 @@ std::vector<std::size_t> fleet_units(const QuantityFindings& found, const std::v
     return units;
 }
 
-std::vector<std::size_t> places_of(const QuantityFindings& found, const Share& share) {
-    if (share.whose == Whose::unit) return {share.which};
-    if (share.whose == Whose::group) return found.groups[share.which].units;
-    std::vector<std::size_t> all(found.units.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    return all;
-}
-
 double mean_level(const QuantityFindings& found, const std::vector<std::size_t>& places) {
     double sum = 0.0;
-    for (const std::size_t place : places) sum += found.units[place].level.value;
+    for (const std::size_t place : places) sum += found.attribution.levels[place];
     return sum / static_cast<double>(places.size());
 }
 
@@ -159,23 +152,31 @@ bool is_told_by(const Judgement& change, const Judgement& deviation) {
            std::abs(deviation.now - change.size.value) < 0.5 * std::abs(deviation.now);
 }
 
+/// Units that share a deviation and that no label or date tells from the others.
+std::string part_name(std::size_t units, std::size_t all) {
+    const std::size_t tenths = 10 * units / all;
+    return fmt::format("{}{} of {} units, which no label or date tells from the others",
+                       tenths >= 4 && tenths < 6 ? "about half of the units, " : "", units, all);
+}
+
 void add_judgements(const std::vector<FleetResult>& results, const QuantityFindings& found,
                     std::size_t quantity, std::vector<Judgement>& judgements) {
     std::vector<Judgement> changes;
     for (const ChangeCluster& cluster : clusters_of(results, found.units))
         changes.push_back(judgement_of(results, found, quantity, cluster));
     for (const Share& share : found.attribution.shares) {
-        const std::vector<std::size_t> places = places_of(found, share);
+        const std::vector<std::size_t>& places = share.units;
         Judgement judgement;
         judgement.whose = share.whose;
         judgement.quantity = quantity;
         judgement.units = fleet_units(found, places);
-        if (share.whose == Whose::group) judgement.group = found.groups[share.which].name;
+        if (share.whose == Whose::group)
+            judgement.group =
+                share.which ? found.groups[*share.which].name : part_name(places.size(), found.units.size());
         judgement.size = share.size;
         judgement.now = mean_level(found, places);
         judgement.is_beside_others = std::ranges::any_of(found.attribution.shares, [&](const Share& other) {
-            const std::vector<std::size_t> of_other = places_of(found, other);
-            return of_other.size() > places.size() && std::ranges::includes(of_other, places);
+            return other.units.size() > places.size() && std::ranges::includes(other.units, places);
         });
         judgement.probability = share.probability;
         judgement.log_odds = share.log_odds;
@@ -210,11 +211,9 @@ void add_judgements(const std::vector<FleetResult>& results, const QuantityFindi
 
 std::vector<bool> odd_units(const QuantityFindings& found) {
     std::vector<bool> odd(found.units.size(), false);
-    for (const Share& share : found.attribution.shares) {
-        if (share.whose == Whose::unit) odd[share.which] = true;
-        if (share.whose == Whose::group)
-            for (const std::size_t u : found.groups[share.which].units) odd[u] = true;
-    }
+    for (const Share& share : found.attribution.shares)
+        if (share.whose != Whose::all)
+            for (const std::size_t u : share.units) odd[u] = true;
     return odd;
 }
 

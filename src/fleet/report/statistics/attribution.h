@@ -18,10 +18,19 @@
 //
 //     log odds = log likelihood ratio + log(1 / (3 Q)) - log(number of sets of its kind)
 //
+// A part of the units that no group is, as about half of them, is a set, too, if it and what is left have
+// more units than are told one by one (8, or a third of all). Of N units every number k is equally likely for
+// it, and of these all parts, so that it pays log N + log(N over k); the likeliest parts are the k units of
+// which most, or least, is left. With normal spread of the units alone none pays: to tell N units into halves
+// costs N log 2.
+//
+// Levels that are not named count as normal laws here (as_normal()); sizes allow for what they are
+// (limited_sizes.h).
 // Sources: Kass, Raftery, JASA 90, 1995; Scott, Berger, Ann. Stat. 38, 2010 (multiplicity by prior odds).
 #include "src/fleet/report/statistics/point.h"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,21 +42,24 @@ enum class Whose { all, group, unit };
 /// A deviation that belongs to a set of units.
 struct Share {
     Whose whose = Whose::all;
-    std::size_t which = 0;     ///< index of the group or unit
-    Level size;                ///< m, given the other deviations, floors
-    double log_odds = 0.0;     ///< natural log odds against its absence, beside the other deviations
-    double probability = 0.0;  ///< probability among this set, none, and all other sets
+    std::optional<std::size_t> which;  ///< index of the group or unit; none of a part that no group is
+    std::vector<std::size_t> units;    ///< whose it is
+    Level size;                        ///< m, given the other deviations, floors
+    double log_odds = 0.0;             ///< natural log odds against its absence, beside the other deviations
+    double probability = 0.0;          ///< probability among this set, none, and all other sets
     /// Natural logarithms of the likelihood ratios of the best set of each kind in its place, against none.
     double log_all = 0.0, log_group = 0.0, log_unit = 0.0;
 };
 
 /// An explanation of all units' levels.
 struct Attribution {
-    std::vector<Share> shares;  ///< in the order in which they were found
-    double spread = 0.0;        ///< tau, most probable value, floors: the units' other differences
+    std::vector<Share> shares;   ///< in the order in which they were found
+    double spread = 0.0;         ///< tau, most probable value, floors: the units' other differences
+    std::vector<double> levels;  ///< of each unit: its value, or the mean of what it may be; floors
 };
 
-/// @param levels  of all units, three at least; fewer cannot be told apart, and have no shares
+/// @param levels  of all units, with limits where they are not named; three at least, fewer cannot be told
+/// apart, and have no shares
 /// @param groups  sets of units that may share a cause, each of two units at least, none of all
 /// @param quantities  that are looked at, Q
 Attribution attribute(std::span<const Level> levels, std::span<const std::vector<std::size_t>> groups,
