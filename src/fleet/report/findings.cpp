@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -152,6 +154,17 @@ bool is_told_by(const Judgement& change, const Judgement& deviation) {
            std::abs(deviation.now - change.size.value) < 0.5 * std::abs(deviation.now);
 }
 
+/// Whether the units at some places, and no others, have their rig files.
+bool have_own_rig_files(const std::vector<FleetResult>& results, const std::vector<UnitHistory>& histories,
+                        const QuantityFindings& found, const std::vector<std::size_t>& places) {
+    std::set<std::string_view> theirs, others;
+    for (std::size_t place = 0; place < found.units.size(); ++place)
+        (std::ranges::binary_search(places, place) ? theirs : others)
+            .insert(rig_file_of(results, histories[found.units[place].series.unit]));
+    return !others.empty() &&
+           std::ranges::none_of(theirs, [&](std::string_view file) { return others.contains(file); });
+}
+
 /// Units that share a deviation and that no label or date tells from the others.
 std::string part_name(std::size_t units, std::size_t all) {
     const std::size_t tenths = 10 * units / all;
@@ -159,8 +172,8 @@ std::string part_name(std::size_t units, std::size_t all) {
                        tenths >= 4 && tenths < 6 ? "about half of the units, " : "", units, all);
 }
 
-void add_judgements(const std::vector<FleetResult>& results, const QuantityFindings& found,
-                    std::size_t quantity, std::vector<Judgement>& judgements) {
+void add_judgements(const std::vector<FleetResult>& results, const std::vector<UnitHistory>& histories,
+                    const QuantityFindings& found, std::size_t quantity, std::vector<Judgement>& judgements) {
     std::vector<Judgement> changes;
     for (const ChangeCluster& cluster : clusters_of(results, found.units))
         changes.push_back(judgement_of(results, found, quantity, cluster));
@@ -178,6 +191,7 @@ void add_judgements(const std::vector<FleetResult>& results, const QuantityFindi
         judgement.is_beside_others = std::ranges::any_of(found.attribution.shares, [&](const Share& other) {
             return other.units.size() > places.size() && std::ranges::includes(other.units, places);
         });
+        judgement.is_by_rig_file = have_own_rig_files(results, histories, found, places);
         judgement.probability = share.probability;
         judgement.log_odds = share.log_odds;
         judgement.log_all = share.log_all;
@@ -235,7 +249,7 @@ FleetFindings findings_of(const std::vector<FleetResult>& results) {
         attribute_and_pool(results, findings.units, findings.quantities[q]);
     }
     for (std::size_t q = 0; q < findings.quantities.size(); ++q)
-        add_judgements(results, findings.quantities[q], q, findings.judgements);
+        add_judgements(results, findings.units, findings.quantities[q], q, findings.judgements);
     std::ranges::stable_sort(findings.judgements, {}, [](const Judgement& judgement) {
         return std::tuple(judgement.whose, -std::abs(judgement.now));
     });

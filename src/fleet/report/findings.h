@@ -69,6 +69,9 @@ struct Judgement {
     double now = 0.0;  ///< present value, floors relative to the rig file
     /// Of a deviation: its units also have a share that they share with others, beside which `size` counts.
     bool is_beside_others = false;
+    /// Of a deviation: its units' values count from rig files from which no other unit's do, so that the
+    /// files may differ rather than the units.
+    bool is_by_rig_file = false;
     std::optional<Dates> since;           ///< of a change
     std::optional<std::int64_t> found_s;  ///< time of the diagnosis with which it was first found
     double probability = 1.0;  ///< of a deviation: probability that it belongs to this unit, batch or all

@@ -79,9 +79,11 @@ std::vector<UnitGroup> groups_of(const std::vector<FleetResult>& results,
                                  std::span<const UnitFindings> units) {
     std::map<std::pair<std::string, std::string>, UnitPlaces> by_label;
     std::map<std::int64_t, UnitPlaces> by_first_week;
+    std::map<std::string, UnitPlaces> by_rig_file;
     for (std::size_t place = 0; place < units.size(); ++place) {
         const std::vector<std::size_t>& of_unit = histories[units[place].series.unit].results;
         for (const auto& label : results[of_unit.back()].labels) by_label[label].push_back(place);
+        by_rig_file[rig_file_of(results, histories[units[place].series.unit])].push_back(place);
         const auto first = std::ranges::find_if(
             of_unit, [&](std::size_t r) { return results[r].recorded_at_s.has_value(); });
         if (first != of_unit.end()) by_first_week[monday_of(*results[*first].recorded_at_s)].push_back(place);
@@ -89,6 +91,8 @@ std::vector<UnitGroup> groups_of(const std::vector<FleetResult>& results,
     std::vector<UnitGroup> groups;
     for (auto& [label, places] : by_label)
         add_group(groups, units.size(), label.first + " " + label.second, std::move(places));
+    for (auto& [rig_file, places] : by_rig_file)
+        add_group(groups, units.size(), fmt::format("rig file {:.12}", rig_file), std::move(places));
     for (auto& [week_s, places] : by_first_week)
         add_group(groups, units.size(), "first recorded in the week of " + date_of(week_s),
                   std::move(places));

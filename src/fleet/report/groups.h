@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Groups of units that may share a cause: by a label of their recordings, by the date of their first
-// recording, or by the date of a change.
+// Groups of units that may share a cause: by a label of their recordings, by the rig file from which their
+// values count, by the date of their first recording, or by the date of a change.
 #include "src/fleet/report/findings.h"
 
 #include <span>

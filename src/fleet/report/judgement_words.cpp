@@ -134,6 +134,11 @@ std::string matter_sentence(const FleetFindings& findings, const Judgement& judg
     if (judgement.is_beside_others)
         sentence += fmt::format(" It stands at {}; the rig file says {}.",
                                 value_words(quantity, judgement.now), value_words(quantity, 0.0));
+    if (judgement.is_by_rig_file)
+        sentence += fmt::format(
+            " {} diagnosed with another rig file than the others, and values count from the "
+            "file: it may be the files that differ.",
+            judgement.units.size() == 1 ? "It was" : "They were");
     return sentence;
 }
 
@@ -184,6 +189,11 @@ std::vector<std::string> what_to_do(const FleetFindings& findings, const Judgeme
                         quantity.parameter, value_words(quantity, judgement.size.value)));
         return steps;
     }
+    if (judgement.is_by_rig_file)
+        steps.emplace_back(
+            "Diagnose all units with one rig file (fleet diagnose --rig) and report again, before anything "
+            "is "
+            "adjusted.");
     if (judgement.is_beside_others && std::abs(judgement.now) < 0.5 * std::abs(judgement.size.value)) {
         steps.emplace_back(
             "Adjust nothing here: it agrees with the rig file where the others do not. Compare it with one "

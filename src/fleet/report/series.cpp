@@ -125,12 +125,16 @@ std::vector<UnitHistory> histories(const std::vector<FleetResult>& results) {
         std::ranges::stable_sort(of_unit, {}, [&](std::size_t r) { return results[r].recorded_at_s; });
         UnitHistory unit{name, std::move(of_unit)};
         unit.first_judged = unit.results.size() - 1;
-        const std::string& rig = results[unit.results.back()].rig_content;
+        const std::string& rig = rig_file_of(results, unit);
         while (unit.first_judged > 0 && results[unit.results[unit.first_judged - 1]].rig_content == rig)
             unit.first_judged -= 1;
         units.push_back(std::move(unit));
     }
     return units;
+}
+
+const std::string& rig_file_of(const std::vector<FleetResult>& results, const UnitHistory& unit) {
+    return results[unit.results.back()].rig_content;
 }
 
 std::vector<QuantityOverFleet> quantities_over_fleet(const std::vector<FleetResult>& results,

@@ -61,6 +61,9 @@ struct QuantityOverFleet {
 /// campaign. Recordings that were diagnosed twice with one rig file, as under two paths, count once.
 std::vector<UnitHistory> histories(const std::vector<FleetResult>& results);
 
+/// SHA-256 of the rig file from which a unit's values count.
+const std::string& rig_file_of(const std::vector<FleetResult>& results, const UnitHistory& unit);
+
 /// All sizes of effects that some diagnosis names, in the order of the catalogue.
 std::vector<QuantityOverFleet> quantities_over_fleet(const std::vector<FleetResult>& results,
                                                      const std::vector<UnitHistory>& units);
