@@ -27,12 +27,12 @@ enum class Ending : char { log = 'L', fault = 'F' };
 
 constexpr int out_of_memory = 77;
 
-/// The address sanitizer maps more than any limit.
-constexpr bool has_address_sanitizer() {
-#if defined(__SANITIZE_ADDRESS__)
+/// The address and thread sanitizers map more than any limit.
+constexpr bool has_sanitizer() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     return true;
 #elif defined(__has_feature)
-    return __has_feature(address_sanitizer);
+    return __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
 #else
     return false;
 #endif
@@ -43,7 +43,7 @@ void bound_this_process(const ReadingLimits& limits) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rlimit memory{limits.bytes, limits.bytes}, none{0, 0};
     const rlimit time{limits.processor_s, limits.processor_s + 1};
-    if (!has_address_sanitizer()) ::setrlimit(RLIMIT_AS, &memory);
+    if (!has_sanitizer()) ::setrlimit(RLIMIT_AS, &memory);
     ::setrlimit(RLIMIT_CPU, &time);
     ::setrlimit(RLIMIT_CORE, &none);
 }
