@@ -27,10 +27,11 @@ using ::testing::SizeIs;
 constexpr std::uint64_t seed = 41'300;
 constexpr std::size_t onset = 4;
 
-/// Units of which the first few are off by so much from the fifth of eight weeks on.
-FleetFindings findings_with(std::size_t stepping, double floors, std::uint64_t number = seed) {
+/// Units of which the first few are off by so much from the fifth week on.
+FleetFindings findings_with(std::size_t stepping, double floors, std::size_t weeks = 8) {
     DrawnFleet fleet;
-    fleet.seed = number;
+    fleet.seed = seed;
+    fleet.weeks = weeks;
     fleet.truth = [=](std::size_t effect, std::size_t unit, std::size_t week) {
         return effect == 1 && unit < stepping && week >= onset ? floors : 0.0;
     };
@@ -69,6 +70,15 @@ TEST(CommonChanges, AllUnitsStepAtOnce_ModelIsNotSaidToBeWrong) {
     EXPECT_NEAR(findings.judgements.front().now, 3.0, 0.2);
 }
 
+/// A step that no unit by itself raises an alarm for.
+TEST(CommonChanges, AllUnitsStepByOneFloorAtOnce_IsAChangeOfTheFleet) {
+    const FleetFindings findings = findings_with(50, 1.0, 12);
+    ASSERT_THAT(findings.judgements, SizeIs(1)) << "seed " << seed;
+    EXPECT_EQ(findings.judgements.front().matter, Matter::step);
+    EXPECT_EQ(findings.judgements.front().whose, Whose::all);
+    EXPECT_NEAR(findings.judgements.front().size.value, 1.0, 0.15);
+}
+
 TEST(CommonChanges, HalfOfTheUnitsStepAtOnce_AreToldAsThese) {
     const FleetFindings findings = findings_with(25, 3.0);
     ASSERT_THAT(findings.judgements, SizeIs(1)) << "seed " << seed;
@@ -84,7 +94,7 @@ TEST(CommonChanges, ScatterThatAllUnitsShare_IsNoChange) {
     constexpr double bound = 200.0;
     int alarms = 0;
     for (int fleet = 0; fleet < fleets; ++fleet)
-        alarms += common_cuts(weekly_units(generator, 0.15, 1.0), 1.0, bound).empty() ? 0 : 1;
+        alarms += common_changes(weekly_units(generator, 0.15, 1.0), 1.0, bound).cuts.empty() ? 0 : 1;
     const double most = fleets * looks / bound;
     EXPECT_LE(alarms, most + 3.0 * std::sqrt(most)) << "seed " << seed;
 }
@@ -93,7 +103,7 @@ TEST(CommonChanges, OneWeekInWhichAllAreOff_IsNoChange) {
     std::mt19937_64 generator(seed);
     std::vector<std::vector<Point>> units = weekly_units(generator, 0.15, 0.0);
     for (std::vector<Point>& unit : units) unit[12].value += 8.0;
-    EXPECT_THAT(common_cuts(units, 1.0, alarm_bound(50, 52, 0.05)), IsEmpty());
+    EXPECT_THAT(common_changes(units, 1.0, alarm_bound(50, 52, 0.05)).cuts, IsEmpty());
 }
 
 TEST(CommonChanges, UnitsOfOtherDaysAndOfFewerWeeks_AreCutAboutTheStep) {
@@ -106,7 +116,7 @@ TEST(CommonChanges, UnitsOfOtherDaysAndOfFewerWeeks_AreCutAboutTheStep) {
             if (point.time_weeks >= 12.0) point.value += 3.0;
         }
     }
-    EXPECT_THAT(common_cuts(units, 1.0, alarm_bound(50, 52, 0.05)), ElementsAre(11.0, 12.0, 13.0));
+    EXPECT_THAT(common_changes(units, 1.0, alarm_bound(50, 52, 0.05)).cuts, ElementsAre(11.0, 12.0, 13.0));
 }
 
 TEST(CommonChanges, Series_IsCutIntoStretches) {

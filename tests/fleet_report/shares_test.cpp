@@ -69,6 +69,22 @@ TEST(PartOfTheUnits, UnitsThatDifferEvenly_HaveNoParts) {
         }
 }
 
+/// Units that happen to be named differ from those that are not.
+TEST(PartOfTheUnits, ThoseThatAreNamed_AreNoPart) {
+    std::mt19937_64 generator(seed);
+    std::normal_distribution<double> normal;
+    constexpr double limit = 0.458, std = 0.06, spread = 0.2, mean = 0.1;
+    for (int fleet = 0; fleet < 20; ++fleet) {
+        std::vector<Level> levels;
+        for (int unit = 0; unit < 200; ++unit) {
+            const double value = mean + std::hypot(std, spread) * normal(generator);
+            levels.push_back(std::abs(value) < limit ? Level{0.0, std, limit} : Level{value, std});
+        }
+        for (const Share& share : attribute(levels, {}, 50).shares)
+            EXPECT_TRUE(share.which.has_value()) << share.units.size() << " units, seed " << seed;
+    }
+}
+
 TEST(LimitedSizes, AllNamed_IsLeastSquares) {
     const std::vector<Level> levels{{2.0, 0.1}, {2.2, 0.1}, {1.8, 0.1}};
     TakenShares taken;

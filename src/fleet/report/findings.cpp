@@ -23,13 +23,16 @@ std::span<const Point> timed(const UnitFindings& unit) {
 }
 
 /// @param looks_a_year, bound  as in FleetFindings
-WithinScatter scatter_of(const QuantityFindings& found, double looks_a_year, double bound) {
+CommonChanges in_common(const QuantityFindings& found, double looks_a_year, double bound) {
     constexpr double weeks_a_year = 365.25 / 7.0;
     std::vector<std::vector<Point>> points;
     for (const UnitFindings& unit : found.units) points.emplace_back(timed(unit).begin(), timed(unit).end());
-    const std::vector<double> cuts = common_cuts(points, weeks_a_year / looks_a_year, bound);
+    return common_changes(points, weeks_a_year / looks_a_year, bound);
+}
+
+WithinScatter scatter_of(const QuantityFindings& found, const CommonChanges& common) {
     std::vector<WithinScatter::Stretches> stretches;
-    for (const std::vector<Point>& unit : points) stretches.push_back(stretches_of(unit, cuts));
+    for (const UnitFindings& unit : found.units) stretches.push_back(stretches_of(timed(unit), common.cuts));
     return WithinScatter(stretches);
 }
 
@@ -49,18 +52,18 @@ std::vector<Scatter> scatter_by_others(const FleetFindings& findings,
 
 /// What has changed, with the scatter of the units that have not.
 void look_for_changes(QuantityFindings& found, WithinScatter scatter, std::span<const Scatter> common,
-                      double bound) {
+                      double bound, std::span<const CommonStep> in_common) {
     const auto of_others = [&](std::size_t u) {
         return scatter.without(u, common[found.units[u].series.unit]);
     };
     for (std::size_t u = 0; u < found.units.size(); ++u)
-        found.units[u].changes = find_changes(timed(found.units[u]), of_others(u), bound);
+        found.units[u].changes = find_changes(timed(found.units[u]), of_others(u), bound, in_common);
     // Units that changed passed for scatter of the others.
     for (std::size_t u = 0; u < found.units.size(); ++u)
         if (!found.units[u].changes.empty()) scatter.leave_out(u);
     for (std::size_t u = 0; u < found.units.size(); ++u) {
         UnitFindings& unit = found.units[u];
-        unit.changes = find_changes(timed(unit), of_others(u), bound);
+        unit.changes = find_changes(timed(unit), of_others(u), bound, in_common);
         const std::span<const Point> all = unit.series.points;
         unit.known = level_now(unit.changes.empty() ? all : timed(unit), of_others(u), unit.changes);
         unit.level = as_normal(unit.known);
@@ -239,13 +242,17 @@ FleetFindings findings_of(const std::vector<FleetResult>& results) {
     findings.bound = alarm_bound(static_cast<double>(quantities_looked_at()), findings.looks_a_year,
                                  false_alarms_a_unit_year);
     std::vector<WithinScatter> scatters;
+    std::vector<CommonChanges> common_to_units;
     for (QuantityOverFleet& fleet : quantities_over_fleet(results, findings.units)) {
         findings.quantities.push_back(unjudged(std::move(fleet)));
-        scatters.push_back(scatter_of(findings.quantities.back(), findings.looks_a_year, findings.bound));
+        common_to_units.push_back(
+            in_common(findings.quantities.back(), findings.looks_a_year, findings.bound));
+        scatters.push_back(scatter_of(findings.quantities.back(), common_to_units.back()));
     }
     const std::vector<Scatter> common = scatter_by_others(findings, scatters);
     for (std::size_t q = 0; q < findings.quantities.size(); ++q) {
-        look_for_changes(findings.quantities[q], std::move(scatters[q]), common, findings.bound);
+        look_for_changes(findings.quantities[q], std::move(scatters[q]), common, findings.bound,
+                         common_to_units[q].steps);
         attribute_and_pool(results, findings.units, findings.quantities[q]);
     }
     for (std::size_t q = 0; q < findings.quantities.size(); ++q)

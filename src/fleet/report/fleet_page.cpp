@@ -134,8 +134,9 @@ std::string effects_html(const FleetFindings& findings) {
             escaped(unit), q, escaped(unit));
     }
     return html +
-           "<p class=\"caption\">At the left a line a unit, 95 % by its own diagnoses; the square is its "
-           "value given the fleet, "
+           "<p class=\"caption\">At the left a line a unit, 95 % by its own diagnoses, and of a unit that "
+           "none of "
+           "them names all that it may be without being named; the square is its value given the fleet, "
            "to which it is drawn the more the less it says itself. The band holds 95 % of units that are "
            "alike; orange is a unit with a share of its own. "
            "Dashed: the rig file, and the fleet's mean. At the right what diagnoses say; units that have "

@@ -167,6 +167,26 @@ std::vector<Share> pruned(std::span<const Level> levels, const CandidateSets& se
     }
 }
 
+/// Takes away a part that has no odds of 19 to 1 once levels that are not named are what they are: units that
+/// happen to be named differ from those that are not, which as normal laws are all about 0.
+/// @return whether there was one
+bool take_away_part_by_naming(std::span<const Level> levels, std::span<const Level> normals,
+                              std::vector<TakenSet>& taken) {
+    const auto log_likelihood = [&](std::span<const TakenSet> sets) {
+        return limited_sizes(levels, explanation_by(normals, sets).taken()).log_likelihood;
+    };
+    for (std::size_t j = 0; j < taken.size(); ++j) {
+        if (taken[j].set->which) continue;
+        std::vector<TakenSet> others = taken;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
+        if (log_likelihood(taken) - log_likelihood(others) + taken[j].set->log_prior_odds >= least_log_odds)
+            continue;
+        taken = std::move(others);
+        return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 Attribution attribute(std::span<const Level> levels, std::span<const std::vector<std::size_t>> groups,
@@ -187,6 +207,8 @@ Attribution attribute(std::span<const Level> levels, std::span<const std::vector
     }
     Attribution attribution;
     attribution.shares = pruned(normals, sets, taken);
+    while (take_away_part_by_naming(levels, normals, taken))
+        attribution.shares = pruned(normals, sets, taken);
     LimitedSizes found = limited_sizes(levels, explanation_by(normals, taken).taken());
     for (std::size_t j = 0; j < taken.size(); ++j) attribution.shares[j].size = found.sizes[j];
     attribution.levels = std::move(found.levels);

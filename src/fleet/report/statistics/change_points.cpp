@@ -115,13 +115,39 @@ std::vector<ChangeColumn> all_but(std::span<const Point> all, std::span<const Ch
     return columns;
 }
 
+/// A step at a time at which many units have changed, beside the unit's other changes.
+std::optional<Change> step_at(const CommonStep& common, std::span<const Point> points, const Scatter& scatter,
+                              std::span<const Change> others) {
+    constexpr double least_log_ratio = 2.944438979166440;  // log 19
+    const auto index_at = [&](double time_weeks) {
+        return static_cast<std::size_t>(std::ranges::lower_bound(points, time_weeks, {}, &Point::time_weeks) -
+                                        points.begin());
+    };
+    const std::size_t first = std::max<std::size_t>(1, index_at(common.from_weeks)),
+                      end = index_at(common.until_weeks);
+    const auto is_here = [&](const Change& change) {
+        return first <= change.latest && change.earliest < end;
+    };
+    if (first >= end || std::ranges::any_of(others, is_here)) return {};
+    const auto [log_ratio, likeliest] =
+        scan(points, scatter, columns_of(points, others)).step_within(first, end - 1);
+    if (log_ratio < least_log_ratio) return {};
+    Change change;
+    change.first = likeliest;
+    change.earliest = first;
+    change.latest = end - 1;
+    change.found = points.size() - 1;
+    return change;
+}
+
 }  // namespace
 
 double alarm_bound(double quantities, double looks_a_year, double rate) {
     return quantities * looks_a_year / rate;
 }
 
-std::vector<Change> find_changes(std::span<const Point> points, const Scatter& scatter, double bound) {
+std::vector<Change> find_changes(std::span<const Point> points, const Scatter& scatter, double bound,
+                                 std::span<const CommonStep> common) {
     const CountedPoints kept = counted(points);
     const double log_bound = std::log(bound);
     std::vector<Change> changes;
@@ -136,6 +162,8 @@ std::vector<Change> find_changes(std::span<const Point> points, const Scatter& s
         for (std::size_t c = 0; changes.size() > 1 && c < changes.size(); ++c)
             date(points, scatter, all_but(points, changes, c), changes[c]);
     }
+    for (const CommonStep& step : common)
+        if (const auto change = step_at(step, points, scatter, changes)) changes.push_back(*change);
     for (std::size_t c = 0; c < changes.size(); ++c) {
         const std::vector<ChangeColumn> others = all_but(points, changes, c);
         const Level size =

@@ -53,6 +53,12 @@ struct Change {
     double log_evidence = 0.0;             ///< log(M / A) with all points, 0 at least
 };
 
+/// A time in which many units have changed (common_changes.h): the first diagnosis with the change is at
+/// `from_weeks` or later, and before `until_weeks`.
+struct CommonStep {
+    double from_weeks, until_weeks;
+};
+
 /// The alarm bound A.
 /// @param quantities  tested in a unit
 /// @param looks_a_year  diagnoses of a unit per year
@@ -62,8 +68,11 @@ double alarm_bound(double quantities, double looks_a_year, double rate);
 /// @param points  of one unit, by time
 /// @param scatter  of such units that do not change, not learnt from this one
 /// @param bound  alarm_bound()
+/// @param common  where a step of this unit was not looked for, but is as likely as none: one that raises no
+/// alarm counts where its likelihood ratio is 19 or more
 /// By time.
-std::vector<Change> find_changes(std::span<const Point> points, const Scatter& scatter, double bound);
+std::vector<Change> find_changes(std::span<const Point> points, const Scatter& scatter, double bound,
+                                 std::span<const CommonStep> common = {});
 
 /// The present value, from the points and their changes. If no point since the last change is named, the
 /// value is a limit.

@@ -184,6 +184,13 @@ ChangeDates ChangeScan::dates(ChangeKind kind) const {
     return dates;
 }
 
+ChangeScan::StepWithin ChangeScan::step_within(std::size_t first, std::size_t last) const {
+    const std::span<const double> ratios = std::span(step_).subspan(first, last - first + 1);
+    const std::span<const double> best = std::span(step_best_).subspan(first, last - first + 1);
+    return {log_of_sum(ratios) - std::log(static_cast<double>(ratios.size())),
+            first + static_cast<std::size_t>(std::ranges::max_element(best) - best.begin())};
+}
+
 void ChangeScan::set_from(std::size_t begin, const ChangeScan& stretch) {
     for (std::size_t k = 1; k < stretch.step_.size(); ++k) {
         set(ChangeKind::step, begin + k, stretch.step_[k], stretch.step_best_[k]);

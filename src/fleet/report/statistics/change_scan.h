@@ -41,6 +41,12 @@ class ChangeScan {
     /// log of the sum over all dates of one kind.
     double log_weight(ChangeKind kind) const;
     ChangeDates dates(ChangeKind kind) const;
+    /// log of the mean E_k of a step over dates from first to last, and the likeliest of these.
+    struct StepWithin {
+        double log_ratio;
+        std::size_t likeliest;
+    };
+    StepWithin step_within(std::size_t first, std::size_t last) const;
 
     /// @param log_ratio  log E_k for that kind
     /// @param log_best  log of the likelihood with the best size

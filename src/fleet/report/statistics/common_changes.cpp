@@ -2,7 +2,6 @@
 #include "src/fleet/report/statistics/common_changes.h"
 
 #include "src/fleet/report/statistics/censored.h"
-#include "src/fleet/report/statistics/change_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,19 +85,23 @@ std::vector<Point> common_course(const InPeriods& placed) {
 
 }  // namespace
 
-std::vector<double> common_cuts(std::span<const std::vector<Point>> units, double period_weeks,
-                                double bound) {
+CommonChanges common_changes(std::span<const std::vector<Point>> units, double period_weeks, double bound) {
     const InPeriods placed = in_periods(units, period_weeks);
     if (placed.units < 2) return {};
     const std::vector<Point> course = common_course(placed);
+    CommonChanges common;
     std::set<double> cuts;
     for (const Change& change : find_changes(course, {.std = 0.0, .degrees = 0.0}, bound)) {
         const bool is_step = change.kind == ChangeKind::step;
-        const std::size_t last = is_step ? std::min(change.latest + 1, course.size() - 1) : course.size() - 1;
-        for (std::size_t p = change.earliest - 1; p <= last; p += is_step ? 1 : 2)
+        const std::size_t first = change.earliest - 1, last = std::min(change.latest + 1, course.size() - 1);
+        if (is_step)
+            common.steps.push_back(
+                {course[first].time_weeks, course[change.latest].time_weeks + period_weeks});
+        for (std::size_t p = first; p <= (is_step ? last : course.size() - 1); p += is_step ? 1 : 2)
             cuts.insert(course[p].time_weeks);
     }
-    return {cuts.begin(), cuts.end()};
+    common.cuts.assign(cuts.begin(), cuts.end());
+    return common;
 }
 
 std::vector<std::vector<Point>> stretches_of(std::span<const Point> points, std::span<const double> cuts) {

@@ -12,8 +12,11 @@
 // unknown scale (change_points.h): it raises at most as many false alarms a year as one unit does, and none
 // that rests on a single period.
 //
-// Where it has changed units' series are cut, as the level of each may be another one before and since. A
-// unit that has not changed loses a few contrasts by that, and nothing else.
+// Where it has changed each unit is as likely as not to have changed, too: its step at that time was not
+// looked for, and counts by its own odds (find_changes()). And units' series are cut there, as the level of
+// each may be another one before and since; a unit that has not changed loses a few contrasts by that, and
+// nothing else.
+#include "src/fleet/report/statistics/change_points.h"
 #include "src/fleet/report/statistics/point.h"
 
 #include <span>
@@ -21,12 +24,19 @@
 
 namespace fidservo::fleet {
 
-/// The times at which series are to be cut, ascending: the interval of a common step, and a period more on
-/// either side, is cut into its periods; what follows the begin of a common trend into pairs of periods.
+/// What units' common course says.
+struct CommonChanges {
+    std::vector<CommonStep> steps;
+    /// The times at which series are to be cut, ascending: the interval of a common step, and a period more
+    /// on either side, is cut into its periods; what follows the begin of a common trend into pairs of
+    /// periods.
+    std::vector<double> cuts;
+};
+
 /// @param units  the points of each unit, by time; units that no diagnosis names say nothing
 /// @param period_weeks  usual time between two diagnoses
 /// @param bound  alarm_bound()
-std::vector<double> common_cuts(std::span<const std::vector<Point>> units, double period_weeks, double bound);
+CommonChanges common_changes(std::span<const std::vector<Point>> units, double period_weeks, double bound);
 
 /// A unit's points by stretches between cuts; no stretch is empty.
 std::vector<std::vector<Point>> stretches_of(std::span<const Point> points, std::span<const double> cuts);

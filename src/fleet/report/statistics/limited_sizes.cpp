@@ -2,7 +2,9 @@
 #include "src/fleet/report/statistics/limited_sizes.h"
 
 #include "src/fleet/report/statistics/censored.h"
+#include "src/fleet/report/statistics/log_of_sum.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -60,7 +62,7 @@ class AtOneSpread {
     }
 
     LimitedSizes sizes() const {
-        LimitedSizes found{.sizes = {}, .spread = spread_, .levels = {}};
+        LimitedSizes found{.sizes = {}, .spread = spread_, .log_likelihood = 0.0, .levels = {}};
         const Eigen::MatrixXd covariance =
             precision_.llt().solve(Eigen::MatrixXd::Identity(sizes_.size(), sizes_.size()));
         for (Eigen::Index j = 0; j < sizes_.size(); ++j)
@@ -112,12 +114,16 @@ class AtOneSpread {
 LimitedSizes limited_sizes(std::span<const Level> levels, const TakenShares& taken) {
     double best = -std::numeric_limits<double>::infinity();
     LimitedSizes found;
+    std::array<double, spread_count> terms{};
     for (std::size_t k = 0; k < spread_count; ++k) {
         const AtOneSpread at(levels, taken, spread_at(k));
+        terms[k] = log_prior_of_spread(k) + at.log_integral();
         if (at.log_integral() <= best) continue;
         best = at.log_integral();
         found = at.sizes();
     }
+    found.log_likelihood = log_of_sum(terms);
+    for (const double law : taken.laws) found.log_likelihood -= std::log(law);
     return found;
 }
 

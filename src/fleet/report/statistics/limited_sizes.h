@@ -22,9 +22,10 @@ namespace fidservo::fleet {
 
 /// What the shares come to.
 struct LimitedSizes {
-    std::vector<Level> sizes;    ///< of each share, given the others
-    double spread = 0.0;         ///< tau
-    std::vector<double> levels;  ///< of each unit: its value, or the mean of what it may be
+    std::vector<Level> sizes;     ///< of each share, given the others
+    double spread = 0.0;          ///< tau
+    double log_likelihood = 0.0;  ///< with sizes and tau integrated out
+    std::vector<double> levels;   ///< of each unit: its value, or the mean of what it may be
 };
 
 LimitedSizes limited_sizes(std::span<const Level> levels, const TakenShares& taken);
