@@ -14,6 +14,7 @@ namespace {
 
 /// Of SQLite's file format, 1.3.
 constexpr std::size_t header_bytes = 100, write_version_at = 18, read_version_at = 19;
+constexpr char version_with_log = 2;  ///< changes go into FILE-wal, and from there into the file at times
 
 /// A database of SQLite states its pages, where its header's two counters of changes agree (SQLite's file
 /// format, 1.3.7).
@@ -76,16 +77,32 @@ BagDatabase::BagDatabase(const std::filesystem::path& file, bool (*is_interrupte
     constexpr std::uint64_t least_pieces = 4'000, most_steps_of_byte = 20;
     most_pieces_ =
         least_pieces + (bytes + (error ? 0 : bytes_of_changes)) / steps_of_piece * most_steps_of_byte;
-    sqlite3* opened = nullptr;
-    const int code = sqlite3_open_v2(is_compressed ? ":memory:" : file.c_str(), &opened,
-                                     is_compressed ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY, nullptr);
-    database_.reset(opened);
-    if (code != SQLITE_OK) fail();
+    const bool has_log = header[read_version_at] == version_with_log;
+    lacks_log_ = has_log && !is_compressed && !std::filesystem::exists(file.string() + "-wal", error);
+    sqlite3* const opened = open(is_compressed);
     if (is_compressed) open_compressed();
     sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, most_message_bytes);
     sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     sqlite3_progress_handler(opened, steps_of_piece, count_steps, this);
     demand_plain_tables();
+}
+
+sqlite3* BagDatabase::open(bool is_compressed) {
+    // Beside a file with a log of changes SQLite makes further files, which a medium or a folder that is only
+    // read does not allow; without the log nobody changes the file, and nothing else is needed.
+    std::string uri = "file:";
+    for (const char letter : std::filesystem::absolute(file_).string())
+        uri += letter == '%' || letter == '?' || letter == '#'
+                   ? fmt::format("%{:02X}", static_cast<unsigned char>(letter))
+                   : std::string(1, letter);
+    if (lacks_log_) uri += "?immutable=1";
+    sqlite3* opened = nullptr;
+    const int code = sqlite3_open_v2(
+        is_compressed ? ":memory:" : uri.c_str(), &opened,
+        is_compressed ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+    database_.reset(opened);
+    if (code != SQLITE_OK) fail();
+    return opened;
 }
 
 void BagDatabase::open_compressed() {
@@ -135,9 +152,28 @@ void BagDatabase::end_if_interrupted() const {
     if (is_interrupted_()) throw BagError("is no longer read: interrupted");
 }
 
+std::string BagDatabase::note() const {
+    if (!lacks_log_) return {};
+    return fmt::format(
+        "{0} was written with a log of changes, {0}-wal, which is not beside it: unless the "
+        "recorder ended in order, the last messages are missing",
+        name());
+}
+
 void BagDatabase::fail() const {
-    throw BagError(
-        fmt::format("SQLite cannot read it as a bag of ROS 2: {}", sqlite3_errmsg(database_.get())));
+    const int code = sqlite3_extended_errcode(database_.get());
+    const bool cannot_make_files = (code & 0xFF) == SQLITE_CANTOPEN || (code & 0xFF) == SQLITE_READONLY;
+    if (cannot_make_files)
+        for (const char* ending : {"-wal", "-journal"})
+            if (std::error_code error; std::filesystem::exists(file_.string() + ending, error))
+                throw BagError(
+                    fmt::format("its changes are in {}{}, which SQLite can only join to it in a "
+                                "folder that can be written to: copy both files into one",
+                                name(), ending));
+    std::string why =
+        fmt::format("SQLite cannot read it as a bag of ROS 2: {}", sqlite3_errmsg(database_.get()));
+    if (lacks_log_) why += fmt::format("; {}-wal, its log of changes, is not beside it", name());
+    throw BagError(why);
 }
 
 std::string text_of(sqlite3_stmt* row, int column) {
