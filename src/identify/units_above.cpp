@@ -13,11 +13,12 @@ namespace fidservo {
 
 namespace {
 
-/// Whether a line has two fields or more that are units, and no other ones.
+/// Whether a line has two fields or more that are units, and no other ones but "-", which stands for none.
 bool is_line_of_units(const LineAbove& line) {
-    const auto filled = std::ranges::count_if(line.fields, [](const auto& field) { return !field.empty(); });
-    return filled >= 2 && std::ranges::all_of(line.fields, [](const std::string& field) {
-               return field.empty() || !unit_alone(field).empty();
+    const auto stated = std::ranges::count_if(
+        line.fields, [](const std::string& field) { return !unit_alone(field).empty(); });
+    return stated >= 2 && std::ranges::all_of(line.fields, [](const std::string& field) {
+               return field.empty() || field == "-" || !unit_alone(field).empty();
            });
 }
 

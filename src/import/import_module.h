@@ -15,7 +15,8 @@ namespace fidservo::imports {
 struct ImportModule {
     LogOrFault (*read_mat)(const char* file);
     LogOrFault (*read_hdf5)(const char* file);
-    LogOrFault (*read_rosbag2)(const std::vector<std::filesystem::path>& files);
+    /// Gives a fault soon after is_interrupted() gives true.
+    LogOrFault (*read_rosbag2)(const std::vector<std::filesystem::path>& files, bool (*is_interrupted)());
     std::string (*write_mat)(const char* file, const Log& log);
     std::string (*write_hdf5)(const char* file, const Log& log);
 };

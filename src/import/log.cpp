@@ -1,11 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/log.h"
 
+#include "src/identify/column_units.h"
+
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
 namespace fidservo::imports {
+namespace {
+
+bool is_of_digits(std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// The index in brackets at the end of a column's name, "[2]"; else empty.
+std::string_view index_of_name(std::string_view name) {
+    const auto open = name.rfind('[');
+    const bool is_index = open != std::string_view::npos && name.ends_with(']') &&
+                          is_of_digits(name.substr(open + 1, name.size() - open - 2));
+    return is_index ? name.substr(open) : std::string_view();
+}
+
+/// The name as it is without a unit in brackets at its end, before an index if it has one.
+std::string without_unit(const std::string& name) {
+    const std::string index(index_of_name(name));
+    const std::string whole = name.substr(0, name.size() - index.size());
+    const std::string last = whole.substr(whole.rfind('/') + 1);
+    const ColumnTitleParts parts = title_parts(last);
+    const bool is_at_end =
+        !last.empty() && std::string_view("])}>").find(last.back()) != std::string_view::npos;
+    if (!is_at_end || parts.unit.empty() || parts.name.empty() || !last.starts_with(parts.name) ||
+        is_of_digits(parts.unit))
+        return name;
+    return whole.substr(0, whole.size() - last.size()) + parts.name + index;
+}
+
+}  // namespace
 
 const LoggedSignal* Log::find(const std::string& signal) const {
     const auto found = std::ranges::find(signals, signal, &LoggedSignal::name);
@@ -33,6 +65,29 @@ std::string with_visible_controls(std::string_view text) {
         if (is_c1) ++k;
     }
     return visible;
+}
+
+std::string unit_of_name(std::string_view name) {
+    std::string unit = title_parts(name).unit;
+    return is_of_digits(unit) ? std::string() : unit;
+}
+
+void take_units_off_names(Log& log) {
+    const auto name_of = [](const LoggedSignal& signal) {
+        return signal.fault.empty() ? without_unit(signal.name) : signal.name;
+    };
+    std::map<std::string, int> uses;
+    for (const LoggedSignal& signal : log.signals) ++uses[name_of(signal)];
+    std::map<std::string, std::string> renamed;
+    for (LoggedSignal& signal : log.signals) {
+        std::string name = name_of(signal);
+        if (name == signal.name || uses.at(name) > 1) continue;
+        renamed[signal.name] = name;
+        signal.name = std::move(name);
+    }
+    for (LoggedSignal& signal : log.signals)
+        if (const auto times = renamed.find(signal.times); times != renamed.end())
+            signal.times = times->second;
 }
 
 void add_columns(Log& log, const LoggedSignal& like, std::size_t rows, std::size_t columns,

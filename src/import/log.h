@@ -70,6 +70,14 @@ std::string too_many_numbers(std::uint64_t count);
 /// The text with control characters, which move a terminal's cursor or break a line, written as \x1B.
 std::string with_visible_controls(std::string_view text);
 
+/// The unit that a name ends in, as a table's title does (title_parts()); a number in brackets is an index.
+std::string unit_of_name(std::string_view name);
+
+/// Takes units in brackets off the ends of signals' names, as tables' readers do: "/log/x [mm]" becomes
+/// "/log/x", and "/log/x [mm][2]" "/log/x[2]". Names that would be the same keep theirs, as do signals with a
+/// fault.
+void take_units_off_names(Log& log);
+
 /// Adds the columns of an array as signals NAME[1], NAME[2], ..; a single column as NAME.
 /// @param at  the value of row i in column k
 void add_columns(Log& log, const LoggedSignal& like, std::size_t rows, std::size_t columns,

@@ -7,6 +7,7 @@
 #include "src/import/bag_files.h"
 #include "src/import/guarded.h"
 #include "src/import/import_module.h"
+#include "src/import/interrupted.h"
 #include "src/import/table_log.h"
 #include "vision/images/image_file.h"
 
@@ -73,7 +74,8 @@ constexpr std::array foreign_formats{
 
 /// The files of one bag as one log.
 Log read_bag(const fs::path& named, const std::vector<fs::path>& files) {
-    LogOrFault log = import_module(named).read_rosbag2(files);
+    LogOrFault log = import_module(named).read_rosbag2(files, interrupt_requested);
+    end_if_interrupted();
     if (!log) fail_for(named, log.error());
     log->file = named;
     if (files.size() > 1)

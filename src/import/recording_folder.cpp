@@ -38,6 +38,7 @@ void make_folder(const fs::path& folder) {
 LoggedFrame frame_of(const Assembled& made, std::size_t k) {
     end_if_interrupted();
     auto frame = made.camera->frame(k);
+    end_if_interrupted();
     if (!frame) throw InputError(fmt::format("{}: frame {}: {}", made.camera->name, k + 1, frame.error()));
     return *std::move(frame);
 }

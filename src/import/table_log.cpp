@@ -9,6 +9,7 @@
 #include "src/import/interrupted.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <limits>
 #include <optional>
@@ -30,6 +31,12 @@ struct ReadColumn {
     std::optional<ClockTime> first{};  ///< of times of day
 };
 
+/// In a line of units, "-" stands for none.
+bool is_name(const std::string& text) {
+    return std::ranges::any_of(
+        text, [](char letter) { return std::ispunct(static_cast<unsigned char>(letter)) == 0; });
+}
+
 /// The name and the unit that the lines above the rows give a column.
 void name_column(const PlainTable& table, ReadColumn& column) {
     LoggedSignal& signal = column.signal;
@@ -45,8 +52,10 @@ void name_column(const PlainTable& table, ReadColumn& column) {
             signal.fault = fmt::format("line {} gives it the unit '{}', but a line below '{}'", lines[k].line,
                                        unit, signal.unit);
         if (signal.unit.empty()) signal.unit = unit;
-        if (signal.name.empty() && (alone.empty() || is_last)) signal.name = parts.name;
+        if (signal.name.empty() && (alone.empty() || is_last) && is_name(parts.name))
+            signal.name = parts.name;
     }
+    if (signal.unit.empty() && signal.fault.empty()) signal.unit = unit_above(table, column.index).unit;
     if (signal.name.empty()) signal.name = fmt::format("{}", column.index + 1);
 }
 

@@ -208,7 +208,7 @@ void read_hdf5(std::string_view bytes) {
 
 void read_bag(std::string_view bytes) {
     const fs::path file = folder().write("bag.db3", bytes);
-    const imports::LogOrFault log = imports::import_module(file).read_rosbag2({file});
+    const imports::LogOrFault log = imports::import_module(file).read_rosbag2({file}, [] { return false; });
     if (!log) return;
     for (const imports::LoggedCamera& camera : log->cameras)
         for (std::size_t k = 0; k < std::min<std::size_t>(3, camera.times_ns.size()); ++k)

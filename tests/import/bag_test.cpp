@@ -7,6 +7,7 @@
 #include "tests/src/temporary_folder.h"
 
 #include <filesystem>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -24,6 +25,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr std::int64_t ms = 1'000'000, wall_ns = 1'700'000'000'000'000'000;
 
@@ -206,6 +208,55 @@ TEST(HostileBag, MessagesThatAreAViewWithoutEnd_AreRefused) {
     sqlite3_close(bag);
     EXPECT_THAT(message_of([&] { read_log(folder / "b.db3", testing::no_table_options); }),
                 HasSubstr("is no bag of ROS 2: Messages is not a plain table"));
+}
+
+/// A connection to a bag's file that writes into a log of changes beside it and leaves them there.
+class WriterWithLog {
+  public:
+    explicit WriterWithLog(const std::filesystem::path& file) {
+        EXPECT_EQ(sqlite3_open(file.c_str(), &bag_), SQLITE_OK);
+        run("PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0");
+    }
+    ~WriterWithLog() { sqlite3_close(bag_); }
+    WriterWithLog(const WriterWithLog&) = delete;
+    WriterWithLog& operator=(const WriterWithLog&) = delete;
+
+    void run(const char* sql) {
+        EXPECT_EQ(sqlite3_exec(bag_, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(bag_);
+    }
+
+  private:
+    sqlite3* bag_ = nullptr;
+};
+
+TEST(BagWithLogOfChanges, WithoutTheLog_IsReadAsFarAsItGoes) {
+    const TemporaryFolder folder;
+    make_numbers(folder / "live.db3", 0, 3);
+    WriterWithLog writer(folder / "live.db3");
+    writer.run(
+        "INSERT INTO messages(topic_id, timestamp, data) SELECT topic_id, timestamp + 9, data FROM "
+        "messages WHERE id = 3");
+    for (const char* name : {"a #1%?/bag.db3", "both/bag.db3"})
+        folder.write(name, text_of(folder / "live.db3"));
+    folder.write("both/bag.db3-wal", text_of(folder / "live.db3-wal"));
+    const Log log = read_log(folder / "a #1%?/bag.db3", testing::no_table_options);
+    EXPECT_THAT(log.find("/u")->values, ElementsAre(0, 1, 2));
+    EXPECT_THAT(log.notes, Contains(HasSubstr("bag.db3 was written with a log of changes, bag.db3-wal, which "
+                                              "is not beside it")));
+    using Folder = std::filesystem::directory_iterator;
+    EXPECT_EQ(std::distance(Folder(folder / "a #1%?"), Folder()), 1) << "reading makes no further files";
+    const Log all = read_log(folder / "both/bag.db3", testing::no_table_options);
+    EXPECT_THAT(all.find("/u")->values, ElementsAre(0, 1, 2, 2));
+    EXPECT_THAT(all.notes, Not(Contains(HasSubstr("log of changes"))));
+}
+
+TEST(BagWithLogOfChanges, WithoutTheLogThatHasAllOfIt_IsRefused) {
+    const TemporaryFolder folder;
+    WriterWithLog writer(folder / "live.db3");
+    writer.run("CREATE TABLE topics(id, name, type, serialization_format)");
+    const auto file = folder.write("bag.db3", text_of(folder / "live.db3"));
+    EXPECT_THAT(message_of([&] { read_log(file, testing::no_table_options); }),
+                HasSubstr("no such table: topics; bag.db3-wal, its log of changes, is not beside it"));
 }
 
 /// A page of a table's tree all of whose children are the next page.

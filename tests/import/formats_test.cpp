@@ -41,6 +41,23 @@ TEST(TableLog, TitlesUnitsGapsAndBigNumbers_AreKept) {
     EXPECT_EQ(log.signals[2].unit, "") << "u_V may be a name";
 }
 
+TEST(TableLog, LineOfUnits_GivesUnitsAboveAndBelowTheTitles) {
+    const TemporaryFolder folder;
+    const std::string rows = "0,1,2\n0.01,2,3\n0.02,4,5\n";
+    for (const char* lines :
+         {"t,x,n\ns,mm,-\n", "s,mm,-\nt,x,n\n", "# s,mm,\nt,x,n\n", "t,x,n\n[s],[mm],\n"}) {
+        SCOPED_TRACE(lines);
+        const Log log = read_log(folder.write("log.csv", lines + rows), testing::no_table_options);
+        ASSERT_EQ(log.signals.size(), 3U);
+        EXPECT_EQ(log.signals[0].name, "t");
+        EXPECT_EQ(log.signals[0].unit, "s");
+        EXPECT_EQ(log.signals[1].name, "x");
+        EXPECT_EQ(log.signals[1].unit, "mm");
+        EXPECT_EQ(log.signals[2].name, "n");
+        EXPECT_EQ(log.signals[2].unit, "");
+    }
+}
+
 TEST(TableLog, LabViewsMeasurementFile_IsReadBelowItsHeader) {
     const TemporaryFolder folder;
     std::string text =

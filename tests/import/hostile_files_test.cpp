@@ -2,6 +2,7 @@
 // Files that are cut off, empty, not what their names say, or made to hurt: one line each, and no more.
 #include "core/input_error.h"
 #include "src/import/guarded.h"
+#include "src/import/import_module.h"
 #include "src/import/read_log.h"
 #include "src/process/interrupt.h"
 #include "tests/effort.h"
@@ -170,9 +171,8 @@ TEST(GuardedReading, WhatHappensInIt_IsOneLine) {
                 HasSubstr("takes more memory than the 8 GiB"));
 }
 
-TEST(InterruptedReading, OfATable_EndsWithOneLine) {
-    const TemporaryFolder folder;
-    const std::string file = folder.write("log.csv", "t [s],x [mm]\n0,1\n1,2\n");
+/// How a process ends that reads the file after Ctrl-C.
+void expect_interrupted(const std::string& file) {
     EXPECT_EXIT(
         {
             request_interrupt();
@@ -181,6 +181,33 @@ TEST(InterruptedReading, OfATable_EndsWithOneLine) {
             std::_Exit(2);
         },
         ::testing::ExitedWithCode(2), "^interrupted \\(SIGINT\\): nothing was written$");
+}
+
+TEST(InterruptedReading, OfATable_EndsWithOneLine) {
+    const TemporaryFolder folder;
+    expect_interrupted(folder.write("log.csv", "t [s],x [mm]\n0,1\n1,2\n"));
+}
+
+TEST(InterruptedReading, OfABag_EndsWithOneLine) {
+    const TemporaryFolder folder;
+    testing::BagTopic topic{"/u", "std_msgs/msg/Float64", {}};
+    for (int k = 0; k < 10; ++k) topic.messages.emplace_back(k + 1, testing::float64(k));
+    testing::make_bag(folder / "bag.db3", {topic});
+    expect_interrupted(folder / "bag.db3");
+}
+
+TEST(InterruptedReading, OfABag_EndsInTheMiddle) {
+    const TemporaryFolder folder;
+    testing::BagTopic topic{"/u", "std_msgs/msg/Float64", {}};
+    for (int k = 0; k < 1000; ++k) topic.messages.emplace_back(k + 1, testing::float64(k));
+    testing::make_bag(folder / "bag.db3", {topic});
+    static int asked = 0;
+    const auto is_interrupted = [] { return ++asked > 500; };
+    const std::filesystem::path file = folder / "bag.db3";
+    const LogOrFault log = import_module(file).read_rosbag2({file}, is_interrupted);
+    ASSERT_FALSE(log);
+    EXPECT_THAT(log.error(), HasSubstr("interrupted"));
+    EXPECT_LT(asked, 510) << "nothing more is read after that";
 }
 
 }  // namespace

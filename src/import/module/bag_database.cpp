@@ -14,6 +14,7 @@ namespace {
 
 /// Of SQLite's file format, 1.3.
 constexpr std::size_t header_bytes = 100, write_version_at = 18, read_version_at = 19;
+constexpr char version_with_log = 2;  ///< changes go into FILE-wal, and from there into the file at times
 
 /// A database of SQLite states its pages, where its header's two counters of changes agree (SQLite's file
 /// format, 1.3.7).
@@ -31,28 +32,39 @@ void demand_all_pages(std::string_view header, std::uint64_t size) {
             fmt::format("breaks off: it states {} bytes and has {}", page_bytes * number_at(28, 4), size));
 }
 
-std::string beginning_of_bag(const std::filesystem::path& file, std::size_t most_bytes) {
+std::string beginning_of_bag(const std::filesystem::path& file, std::size_t most_bytes,
+                             bool (*is_interrupted)()) {
+    constexpr std::size_t piece_bytes = std::size_t{1} << 24U;
     std::ifstream stream(file, std::ios::binary);
-    std::string bytes(most_bytes, '\0');
-    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    bytes.resize(static_cast<std::size_t>(stream.gcount()));
+    std::string bytes;
+    bytes.reserve(most_bytes);
+    while (stream && bytes.size() < most_bytes && !is_interrupted()) {
+        const std::size_t done = bytes.size(), piece = std::min(piece_bytes, most_bytes - done);
+        bytes.resize(done + piece);
+        stream.read(bytes.data() + done, static_cast<std::streamsize>(piece));
+        bytes.resize(done + static_cast<std::size_t>(stream.gcount()));
+    }
     return bytes;
 }
 
-constexpr int steps_of_piece = 1'000'000;
+/// So few that even a disk that seeks for each row is left within a second.
+constexpr int steps_of_piece = 1'000;
 
 }  // namespace
 
-BagDatabase::BagDatabase(const std::filesystem::path& file) : file_(file) {
+BagDatabase::BagDatabase(const std::filesystem::path& file, bool (*is_interrupted)())
+    : file_(file), is_interrupted_(is_interrupted) {
     std::error_code error;
     std::uint64_t bytes = std::filesystem::file_size(file, error);
     if (error) throw BagError(error.message());
-    std::string header = beginning_of_bag(file, header_bytes);
+    std::string header = beginning_of_bag(file, header_bytes, is_interrupted);
     const bool is_compressed = is_zstd(header);
     if (is_compressed) {
         constexpr std::size_t most_bytes = std::size_t{1} << 31U;
-        auto content =
-            decompressed(beginning_of_bag(file, std::min<std::size_t>(bytes, most_bytes)), most_bytes);
+        const std::string compressed =
+            beginning_of_bag(file, std::min<std::size_t>(bytes, most_bytes), is_interrupted);
+        auto content = decompressed(compressed, most_bytes, is_interrupted);
+        end_if_interrupted();
         if (!content)
             throw BagError(fmt::format("{}; unzstd -o NEW.db3 FILE.db3.zstd decompresses a larger one",
                                        content.error()));
@@ -62,19 +74,35 @@ BagDatabase::BagDatabase(const std::filesystem::path& file) : file_(file) {
     }
     demand_all_pages(header, bytes);
     const std::uint64_t bytes_of_changes = std::filesystem::file_size(file.string() + "-wal", error);
-    constexpr std::uint64_t least_pieces = 4, most_steps_of_byte = 20;
+    constexpr std::uint64_t least_pieces = 4'000, most_steps_of_byte = 20;
     most_pieces_ =
         least_pieces + (bytes + (error ? 0 : bytes_of_changes)) / steps_of_piece * most_steps_of_byte;
-    sqlite3* opened = nullptr;
-    const int code = sqlite3_open_v2(is_compressed ? ":memory:" : file.c_str(), &opened,
-                                     is_compressed ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY, nullptr);
-    database_.reset(opened);
-    if (code != SQLITE_OK) fail();
+    const bool has_log = header[read_version_at] == version_with_log;
+    lacks_log_ = has_log && !is_compressed && !std::filesystem::exists(file.string() + "-wal", error);
+    sqlite3* const opened = open(is_compressed);
     if (is_compressed) open_compressed();
     sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, most_message_bytes);
     sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     sqlite3_progress_handler(opened, steps_of_piece, count_steps, this);
     demand_plain_tables();
+}
+
+sqlite3* BagDatabase::open(bool is_compressed) {
+    // Beside a file with a log of changes SQLite makes further files, which a medium or a folder that is only
+    // read does not allow; without the log nobody changes the file, and nothing else is needed.
+    std::string uri = "file:";
+    for (const char letter : std::filesystem::absolute(file_).string())
+        uri += letter == '%' || letter == '?' || letter == '#'
+                   ? fmt::format("%{:02X}", static_cast<unsigned char>(letter))
+                   : std::string(1, letter);
+    if (lacks_log_) uri += "?immutable=1";
+    sqlite3* opened = nullptr;
+    const int code = sqlite3_open_v2(
+        is_compressed ? ":memory:" : uri.c_str(), &opened,
+        is_compressed ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+    database_.reset(opened);
+    if (code != SQLITE_OK) fail();
+    return opened;
 }
 
 void BagDatabase::open_compressed() {
@@ -96,8 +124,10 @@ void BagDatabase::demand_plain_tables() const {
 }
 
 int BagDatabase::count_steps(void* bag) {
-    std::uint64_t& left = static_cast<const BagDatabase*>(bag)->pieces_left_;
-    return left == 0 ? 1 : (--left, 0);
+    const auto& database = *static_cast<const BagDatabase*>(bag);
+    if (database.is_interrupted_() || database.pieces_left_ == 0) return 1;
+    --database.pieces_left_;
+    return 0;
 }
 
 void BagDatabase::each(const char* sql, std::int64_t argument,
@@ -108,15 +138,42 @@ void BagDatabase::each(const char* sql, std::int64_t argument,
     const std::unique_ptr<sqlite3_stmt, Close> statement(prepared);
     if (sqlite3_bind_parameter_count(prepared) > 0) sqlite3_bind_int64(prepared, 1, argument);
     int code = SQLITE_ROW;
-    while ((code = sqlite3_step(prepared)) == SQLITE_ROW) visit(prepared);
+    while ((code = sqlite3_step(prepared)) == SQLITE_ROW) {
+        end_if_interrupted();
+        visit(prepared);
+    }
+    end_if_interrupted();
     if (code == SQLITE_INTERRUPT)
         throw BagError("is damaged: reading it takes more steps than a table of its size can need");
     if (code != SQLITE_DONE) fail();
 }
 
+void BagDatabase::end_if_interrupted() const {
+    if (is_interrupted_()) throw BagError("is no longer read: interrupted");
+}
+
+std::string BagDatabase::note() const {
+    if (!lacks_log_) return {};
+    return fmt::format(
+        "{0} was written with a log of changes, {0}-wal, which is not beside it: unless the "
+        "recorder ended in order, the last messages are missing",
+        name());
+}
+
 void BagDatabase::fail() const {
-    throw BagError(
-        fmt::format("SQLite cannot read it as a bag of ROS 2: {}", sqlite3_errmsg(database_.get())));
+    const int code = sqlite3_extended_errcode(database_.get());
+    const bool cannot_make_files = (code & 0xFF) == SQLITE_CANTOPEN || (code & 0xFF) == SQLITE_READONLY;
+    if (cannot_make_files)
+        for (const char* ending : {"-wal", "-journal"})
+            if (std::error_code error; std::filesystem::exists(file_.string() + ending, error))
+                throw BagError(
+                    fmt::format("its changes are in {}{}, which SQLite can only join to it in a "
+                                "folder that can be written to: copy both files into one",
+                                name(), ending));
+    std::string why =
+        fmt::format("SQLite cannot read it as a bag of ROS 2: {}", sqlite3_errmsg(database_.get()));
+    if (lacks_log_) why += fmt::format("; {}-wal, its log of changes, is not beside it", name());
+    throw BagError(why);
 }
 
 std::string text_of(sqlite3_stmt* row, int column) {
@@ -130,7 +187,7 @@ BagMessage::BagMessage(sqlite3_stmt* row, int column) {
         bytes_ = {static_cast<const char*>(bytes),
                   static_cast<std::size_t>(sqlite3_column_bytes(row, column))};
     if (!is_zstd(bytes_)) return;
-    auto content = decompressed(bytes_, most_message_bytes);
+    auto content = decompressed(bytes_, most_message_bytes, [] { return false; });
     if (!content) throw CdrError(content.error());
     decompressed_ = *std::move(content);
     bytes_ = decompressed_;

@@ -25,7 +25,8 @@ class BagDatabase {
   public:
     /// Opens it; a file that zstd compressed is decompressed into memory. Throws BagError: it is no bag, or
     /// is cut off, or its topics and messages are not plain tables.
-    explicit BagDatabase(const std::filesystem::path& file);
+    /// @param is_interrupted  asked while it reads, now and later; once it gives true, BagError is thrown
+    BagDatabase(const std::filesystem::path& file, bool (*is_interrupted)());
     BagDatabase(const BagDatabase&) = delete;
     BagDatabase& operator=(const BagDatabase&) = delete;
 
@@ -34,6 +35,8 @@ class BagDatabase {
     void each(const char* sql, std::int64_t argument, const std::function<void(sqlite3_stmt*)>& visit) const;
 
     std::string name() const { return file_.filename().string(); }
+    /// What a user would want to know of the file, in one sentence; empty: nothing.
+    std::string note() const;
 
   private:
     struct Close {
@@ -41,13 +44,17 @@ class BagDatabase {
         void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
     };
     static int count_steps(void* bag);
+    sqlite3* open(bool is_compressed);
     void open_compressed();
     void demand_plain_tables() const;
+    void end_if_interrupted() const;
     [[noreturn]] void fail() const;
 
     std::filesystem::path file_;
+    bool (*is_interrupted_)();
+    bool lacks_log_ = false;         ///< SQLite's log of changes, FILE-wal, is not there
     std::string content_;            ///< of a compressed file; the database is in it
-    std::uint64_t most_pieces_ = 0;  ///< of a query's steps, a million each
+    std::uint64_t most_pieces_ = 0;  ///< of a query's steps, a thousand each
     std::unique_ptr<sqlite3, Close> database_;
     mutable std::uint64_t pieces_left_ = 0;
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/module/hdf5_dataset.h"
 
-#include "src/identify/column_units.h"
 #include "src/import/module/hdf5_handle.h"
 #include "src/import/module/hdf5_meaning.h"
 
@@ -132,7 +131,10 @@ void read_numbers(Hdf5Reading& reading, const Part& part, hid_t element, std::sp
     const std::size_t count = shape.rows * shape.columns;
     auto values = doubles_of_part(part, inner, count, element);
     std::optional<std::vector<std::int64_t>> whole(std::in_place);
-    if (is_wide_integer(element)) whole = numbers_of_part<std::int64_t>(part, inner, count, H5T_NATIVE_INT64);
+    constexpr double first_too_large = 0x1p63;
+    if (is_wide_integer(element) && values &&
+        std::ranges::all_of(*values, [](double value) { return value < first_too_large; }))
+        whole = numbers_of_part<std::int64_t>(part, inner, count, H5T_NATIVE_INT64);
     if (!values || !whole) {
         reading.pass_over(part.name, "libhdf5 cannot read its data");
         return;
@@ -188,7 +190,7 @@ void read_compound(Hdf5Reading& reading, const Part& part, hid_t type) {
         H5free_memory(member_name);
         Part inner{part.dataset, fmt::format("{}.{}", part.name, plain), part.dims, part.path};
         inner.path.push_back(plain);
-        inner.meaning.unit = title_parts(plain).unit;
+        inner.meaning.unit = unit_of_name(plain);
         if (member && H5Tget_class(member.id()) == H5T_COMPOUND && inner.path.size() < most_nested)
             read_compound(reading, inner, member.id());
         else if (member)

@@ -92,6 +92,7 @@ LogOrFault read_hdf5_file(const char* file) {
             "holds no dataset of numbers in one or two dimensions" +
             (signals.empty() ? std::string()
                              : fmt::format("; {} {}", signals.front().name, signals.front().fault)));
+    take_units_off_names(visit.reading.log);
     return std::move(visit.reading.log);
 }
 

@@ -2,6 +2,7 @@
 #include "src/import/module/hdf5_meaning.h"
 
 #include "src/identify/column_units.h"
+#include "src/import/log.h"
 #include "src/import/module/hdf5_handle.h"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ std::vector<StatedUnit> stated_units(hid_t dataset, const std::string& name) {
             stated.push_back({fmt::format("its attribute {}", attribute),
                               known == nullptr ? unit : std::string(known->name)});
         }
-    if (const std::string unit = title_parts(name.substr(name.rfind('/') + 1)).unit; !unit.empty())
+    if (const std::string unit = unit_of_name(name.substr(name.rfind('/') + 1)); !unit.empty())
         stated.push_back({"its name", unit});
     return stated;
 }

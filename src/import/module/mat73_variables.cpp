@@ -131,7 +131,11 @@ class Mat73Reader {
         if (hdf5_attribute(object, "MATLAB_class") == "function_handle")
             return variable_without_data(MAT_C_FUNCTION);
         const std::vector<std::string> names = members_of(object).value_or(std::vector<std::string>());
-        if (names.empty() || names.size() > most_signals) return variable_without_data(MAT_C_EMPTY);
+        if (names.empty()) return variable_without_data(MAT_C_EMPTY);
+        if (names.size() > most_parts) {
+            parts_ += names.size();
+            return variable_without_data(MAT_C_EMPTY);
+        }
         const auto references = element_references(object, names);
         std::vector<const char*> fields;
         fields.reserve(names.size() + 1);
@@ -142,7 +146,7 @@ class Mat73Reader {
         if (made == nullptr) return variable_without_data(MAT_C_EMPTY);
         for (std::size_t field = 0; field < names.size(); ++field) {
             const Hdf5Handle member(H5Oopen(object, names[field].c_str(), H5P_DEFAULT), H5Oclose);
-            for (std::size_t k = 0; k < dims[1]; ++k) {
+            for (std::size_t k = 0; k < std::min(dims[1], most_columns); ++k) {
                 Variable value = references.empty() ? variable_of(member.id(), depth + 1)
                                  : k < references[field].size()
                                      ? referred(member.id(), references[field][k], depth)
@@ -180,7 +184,6 @@ class Mat73Reader {
         if (count > 0 &&
             H5Dread(object, H5T_STD_REF_OBJ, H5S_ALL, H5S_ALL, H5P_DEFAULT, references.data()) < 0)
             return std::nullopt;
-        references.resize(std::min(references.size(), most_columns));
         return references;
     }
 
@@ -196,7 +199,7 @@ class Mat73Reader {
                 Mat_VarCreate(nullptr, MAT_C_CELL, MAT_T_CELL, dims.size(), dims.data(), nullptr, 0));
             if (made == nullptr || references->empty()) return variable_without_data(MAT_C_EMPTY);
             if (made->data == nullptr) made->data = std::calloc(references->size(), sizeof(matvar_t*));
-            for (std::size_t k = 0; k < references->size(); ++k)
+            for (std::size_t k = 0; k < std::min(references->size(), most_columns); ++k)
                 Mat_VarSetCell(made.get(), static_cast<int>(k),
                                referred(object, (*references)[k], depth).release());
             return made;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "src/import/module/mat_log.h"
 
-#include "src/identify/column_units.h"
 #include "src/import/module/mat73_variables.h"
 #include "src/import/module/mat_objects.h"
 
@@ -79,8 +78,18 @@ class MatReader {
     explicit MatReader(Log& log) : log_(&log) {}
 
     void add(const matvar_t* variable, const std::string& name, const std::string& times, int depth) {
-        if (variable == nullptr || depth > most_depth || log_->signals.size() > most_signals) return;
-        if (append_of(*variable) != nullptr)
+        if (variable == nullptr || is_full_) return;
+        is_full_ = log_->signals.size() >= most_signals;
+        if (is_full_)
+            log_->notes.push_back(fmt::format(
+                "{} and what follows it are passed over: more than {} signals are not read from one file",
+                name, most_signals));
+        else if (depth > most_depth)
+            log_->signals.push_back(
+                {.name = name,
+                 .fault =
+                     fmt::format("is passed over: it is in more than {} structures and cells", most_depth)});
+        else if (append_of(*variable) != nullptr)
             add_array(*variable, name, times);
         else if (variable->class_type == MAT_C_STRUCT)
             add_struct(*variable, name, times, depth);
@@ -105,7 +114,7 @@ class MatReader {
     void add_array(const matvar_t& variable, const std::string& name, const std::string& times) {
         const std::uint64_t count = elements_of(variable).value_or(most_values + 1);
         LoggedSignal like{
-            .name = name, .unit = title_parts(name.substr(name.rfind('.') + 1)).unit, .times = times};
+            .name = name, .unit = unit_of_name(name.substr(name.rfind('.') + 1)), .times = times};
         if (count == 0) {
             log_->signals.push_back(like);
             return;
@@ -201,17 +210,31 @@ class MatReader {
                 add(Mat_VarGetStructFieldByIndex(const_cast<matvar_t*>(&variable), field, k),
                     fmt::format("{}.{}", element, fields[field]), times, depth + 1);
         }
+        if (count > most_columns) pass_over_rest(fmt::format("{}[{}]", name, most_columns + 1), count);
     }
 
     void add_cells(const matvar_t& variable, const std::string& name, int depth) {
         const std::uint64_t count = elements_of(variable).value_or(0);
-        if (variable.data == nullptr) return;
+        if (variable.data == nullptr) {
+            if (count > 0) log_->signals.push_back({.name = name, .fault = "has no data that can be read"});
+            return;
+        }
         for (std::uint64_t k = 0; k < std::min<std::uint64_t>(count, most_columns); ++k)
             add(Mat_VarGetCell(const_cast<matvar_t*>(&variable), static_cast<int>(k)),
                 fmt::format("{}{{{}}}", name, k + 1), "", depth + 1);
+        if (count > most_columns) pass_over_rest(fmt::format("{}{{{}}}", name, most_columns + 1), count);
+    }
+
+    /// Of an array of structures or cells.
+    void pass_over_rest(std::string name, std::uint64_t count) {
+        log_->signals.push_back(
+            {.name = std::move(name),
+             .fault = fmt::format("and what follows it are passed over: of {} elements {} are read", count,
+                                  most_columns)});
     }
 
     Log* log_;
+    bool is_full_ = false;
     std::uint64_t values_ = 0;
 };
 
@@ -265,6 +288,7 @@ LogOrFault read_mat_file(const char* file) {
         log.texts.empty() &&
         std::ranges::all_of(log.signals, [](const LoggedSignal& signal) { return !signal.fault.empty(); });
     if (is_of_no_use) return tl::make_unexpected(log.signals.front().name + ": " + log.signals.front().fault);
+    take_units_off_names(log);
     return log;
 }
 

@@ -247,10 +247,12 @@ void read_topic(const Topic& topic, Log& log, std::uint64_t& count) {
 }
 
 /// The topics of all files, by name.
-std::vector<Topic> topics_of(const std::vector<std::filesystem::path>& files) {
+std::vector<Topic> topics_of(const std::vector<std::filesystem::path>& files, bool (*is_interrupted)(),
+                             Log& log) {
     std::map<std::tuple<std::string, std::string, std::string>, Topic> topics;
     for (const std::filesystem::path& file : files) try {
-            const auto database = std::make_shared<const BagDatabase>(file);
+            const auto database = std::make_shared<const BagDatabase>(file, is_interrupted);
+            if (std::string note = database->note(); !note.empty()) log.notes.push_back(std::move(note));
             database->each("SELECT id, name, type, serialization_format FROM topics", 0,
                            [&](sqlite3_stmt* row) {
                                const std::tuple key{text_of(row, 1), text_of(row, 2), text_of(row, 3)};
@@ -270,10 +272,10 @@ std::vector<Topic> topics_of(const std::vector<std::filesystem::path>& files) {
 
 }  // namespace
 
-LogOrFault read_rosbag2_files(const std::vector<std::filesystem::path>& files) {
+LogOrFault read_rosbag2_files(const std::vector<std::filesystem::path>& files, bool (*is_interrupted)()) {
     try {
-        const std::vector<Topic> topics = topics_of(files);
         Log log;
+        const std::vector<Topic> topics = topics_of(files, is_interrupted, log);
         std::uint64_t count = 0;
         for (const Topic& topic : topics) read_topic(topic, log, count);
         if (log.signals.empty() && log.cameras.empty())

@@ -15,6 +15,7 @@ namespace fidservo::imports {
 /// joint that some messages do not name TOPIC/stamp/position[JOINT]. Messages are put in the order of their
 /// times.
 /// @param files  one at least, in their order; a file that zstd compressed is decompressed
-LogOrFault read_rosbag2_files(const std::vector<std::filesystem::path>& files);
+/// @param is_interrupted  asked many times a second; once it gives true, so does a fault end the reading
+LogOrFault read_rosbag2_files(const std::vector<std::filesystem::path>& files, bool (*is_interrupted)());
 
 }  // namespace fidservo::imports

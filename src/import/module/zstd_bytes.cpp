@@ -19,11 +19,14 @@ bool is_zstd(std::string_view bytes) {
     return bytes.starts_with("(\xB5/\xFD");
 }
 
-tl::expected<std::string, std::string> decompressed(std::string_view bytes, std::size_t most_bytes) {
+tl::expected<std::string, std::string> decompressed(std::string_view bytes, std::size_t most_bytes,
+                                                    bool (*is_interrupted)()) {
     const std::unique_ptr<ZSTD_DStream, FreeZstdStream> stream(ZSTD_createDStream());
     std::string piece(ZSTD_DStreamOutSize(), '\0'), all;
     ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
     for (;;) {
+        if (is_interrupted())
+            return tl::make_unexpected(std::string("is no longer decompressed: interrupted"));
         ZSTD_outBuffer out{piece.data(), piece.size(), 0};
         const std::size_t left = ZSTD_decompressStream(stream.get(), &out, &in);
         if (ZSTD_isError(left) != 0)

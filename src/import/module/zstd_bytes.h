@@ -12,7 +12,10 @@ namespace fidservo::imports {
 /// Whether bytes begin as a frame of zstd does.
 bool is_zstd(std::string_view bytes);
 
-/// What was compressed. The error is a part of a sentence: damaged, cut off, or larger than most_bytes.
-tl::expected<std::string, std::string> decompressed(std::string_view bytes, std::size_t most_bytes);
+/// What was compressed. The error is a part of a sentence: damaged, cut off, larger than most_bytes, or
+/// interrupted.
+/// @param is_interrupted  asked between pieces
+tl::expected<std::string, std::string> decompressed(std::string_view bytes, std::size_t most_bytes,
+                                                    bool (*is_interrupted)());
 
 }  // namespace fidservo::imports
