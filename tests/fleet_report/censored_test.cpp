@@ -110,6 +110,7 @@ TEST(Censored_, StepToWhatIsNotNamed_RatioIsInClosedForm) {
 
 TEST(Censored_, AllNamed_ScanByNodesIsTheOneInClosedForm) {
     std::vector<Point> points;
+    points.reserve(6);
     for (int week = 0; week < 6; ++week)
         points.push_back({static_cast<double>(week), week < 3 ? 1.0 + 0.1 * week : 2.2 - 0.1 * week, 0.2});
     const Scatter scatter{0.1, 1e5};

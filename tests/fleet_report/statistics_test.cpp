@@ -22,6 +22,7 @@ std::vector<Point> weekly(const std::vector<double>& values, double std) {
 /// Units that have one level each.
 std::vector<WithinScatter::Stretches> uncut(const std::vector<std::vector<Point>>& units) {
     std::vector<WithinScatter::Stretches> all;
+    all.reserve(units.size());
     for (const std::vector<Point>& unit : units) all.push_back({unit});
     return all;
 }

@@ -111,6 +111,7 @@ std::vector<WithFurther> Explanation::with_first_of(std::span<const std::size_t>
         }
     }
     std::vector<WithFurther> further;
+    further.reserve(terms.size());
     for (const Terms& of_count : terms) further.push_back(averaged(of_count));
     return further;
 }
