@@ -259,6 +259,19 @@ TEST(BagWithLogOfChanges, WithoutTheLogThatHasAllOfIt_IsRefused) {
                 HasSubstr("no such table: topics; bag.db3-wal, its log of changes, is not beside it"));
 }
 
+TEST(HostileBag, TimeOfReceptionThatIsNoInteger_IsRefused) {
+    const TemporaryFolder folder;
+    make_numbers(folder / "b.db3", 0, 3);
+    sqlite3* bag = nullptr;
+    ASSERT_EQ(sqlite3_open((folder / "b.db3").c_str(), &bag), SQLITE_OK);
+    ASSERT_EQ(
+        sqlite3_exec(bag, "UPDATE messages SET timestamp = 1.5 WHERE id = 2", nullptr, nullptr, nullptr),
+        SQLITE_OK);
+    sqlite3_close(bag);
+    EXPECT_THAT(message_of([&] { read_log(folder / "b.db3", testing::no_table_options); }),
+                HasSubstr("b.db3: /u: message 1: its time of reception, '1.5', is no integer"));
+}
+
 /// A page of a table's tree all of whose children are the next page.
 std::string page_of_one_child(std::size_t page_bytes, std::uint32_t child) {
     constexpr std::size_t header = 12, cell = 5;

@@ -37,6 +37,22 @@ TEST(ContrastRegions, OneDarkPixel_IsInsideABoxOnTheGrid) {
     }
 }
 
+TEST(ContrastBox, HoldsAllRegionsAndNoMore) {
+    EXPECT_TRUE(contrast_box(cv::Mat(), 30).empty());
+    EXPECT_TRUE(contrast_box(draw({}, {}), 30).empty());
+    cv::Mat image(97, 131, CV_8UC1, cv::Scalar(200));
+    image.at<unsigned char>(40, 60) = 171;
+    EXPECT_TRUE(contrast_box(image, 30).empty());
+    image.at<unsigned char>(40, 60) = 170;
+    EXPECT_EQ(contrast_box(image, 30), contrast_regions(image, 30).front());
+    image.at<unsigned char>(96, 130) = 170;
+    const cv::Rect box = contrast_box(image, 30);
+    for (const cv::Rect& region : contrast_regions(image, 30)) EXPECT_EQ(region & box, region);
+    EXPECT_EQ(box.br(), cv::Point(131, 97));
+    EXPECT_EQ(box.x % 4 + box.y % 4, 0);
+    EXPECT_GT(box.x, 0);
+}
+
 TEST(ContrastRegions, TagsFarApart_HaveABoxEachWithTheirQuietZones) {
     const cv::Mat image = draw({{cells_of(1), {120.0, 100.0}, 80.0}, {cells_of(2), {420.0, 100.0}, 80.0}},
                                {.size_px = {560, 200}});

@@ -39,6 +39,28 @@ TEST(TagDetector, EveryFourthCode_IsReadAsItself) {
     }
 }
 
+TEST(TagDetector, LargeImage_IsSearchedWhereItHasEdges) {
+    const std::vector<RenderedTag> tags{{7, {150, 120}, 80.0}, {8, {380, 150}, 18.0, 0.3}};
+    const cv::Mat small = render(tags, {.size_px = {480, 270}, .noise = false});
+    cv::Mat large(6000, 8000, CV_8UC1, cv::Scalar(small.at<unsigned char>(0, 0)));
+    const cv::Point at(5604, 3020);
+    small.copyTo(large(cv::Rect(at, small.size())));
+    for (TagDetectorOptions options : {machine_camera_options(), thorough_options()}) {
+        TagDetector detector(options);
+        EXPECT_TRUE(detector.detect(cv::Mat(6000, 8000, CV_8UC1, cv::Scalar(200)), 0).empty());
+        const std::vector<TagDetection> alone = detector.detect(small, 0), found = detector.detect(large, 0);
+        ASSERT_EQ(alone.size(), tags.size());
+        ASSERT_EQ(found.size(), alone.size());
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            EXPECT_EQ(found[k].tag_id, alone[k].tag_id);
+            for (std::size_t c = 0; c < 4; ++c)
+                EXPECT_LT(
+                    (found[k].corners_px[c] - Eigen::Vector2d(at.x, at.y) - alone[k].corners_px[c]).norm(),
+                    1e-3);
+        }
+    }
+}
+
 TEST(TagDetector, SameIdTwice_GivesBothFromLeftToRight) {
     const cv::Mat image =
         render({{5, {480, 240}, 150.0}, {5, {160, 240}, 150.0}, {2, {320, 100}, 100.0}}, {});

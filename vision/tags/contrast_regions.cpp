@@ -47,6 +47,21 @@ TileLevels tile_levels(const cv::Mat& image) {
     return levels;
 }
 
+/// The tiles whose neighbourhoods have the contrast.
+cv::Mat busy_tiles(const cv::Mat& image, int min_contrast) {
+    TileLevels levels = tile_levels(image);
+    cv::erode(levels.low, levels.low, cv::Mat());
+    cv::dilate(levels.high, levels.high, cv::Mat());
+    return (levels.high - levels.low) >= min_contrast;
+}
+
+/// A box of tiles in pixels.
+cv::Rect in_px(const cv::Rect& box, const cv::Size& tiles, const cv::Size& image) {
+    const cv::Point end(box.br().x == tiles.width ? image.width : box.br().x * tile_px,
+                        box.br().y == tiles.height ? image.height : box.br().y * tile_px);
+    return {box.tl() * tile_px, end};
+}
+
 /// The box in tiles with room around it, within `all`.
 cv::Rect with_room(const cv::Rect& box, const cv::Size& all) {
     const int room =
@@ -75,12 +90,8 @@ void make_disjoint(std::vector<cv::Rect>& boxes) {
 std::vector<cv::Rect> contrast_regions(const cv::Mat& image, int min_contrast) {
     FIDSERVO_DEMAND(image.type() == CV_8UC1);
     if (image.empty()) return {};
-    TileLevels levels = tile_levels(image);
-    const cv::Size tiles = levels.low.size();
-    cv::erode(levels.low, levels.low, cv::Mat());
-    cv::dilate(levels.high, levels.high, cv::Mat());
-    const cv::Mat busy = (levels.high - levels.low) >= min_contrast;
-
+    const cv::Mat busy = busy_tiles(image, min_contrast);
+    const cv::Size tiles = busy.size();
     cv::Mat1i labels, stats;
     cv::Mat1d centres;
     const int count = cv::connectedComponentsWithStats(busy, labels, stats, centres);
@@ -92,12 +103,16 @@ std::vector<cv::Rect> contrast_regions(const cv::Mat& image, int min_contrast) {
     make_disjoint(boxes);
     std::sort(boxes.begin(), boxes.end(),
               [](const cv::Rect& a, const cv::Rect& b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); });
-    for (cv::Rect& box : boxes) {
-        const cv::Point end(box.br().x == tiles.width ? image.cols : box.br().x * tile_px,
-                            box.br().y == tiles.height ? image.rows : box.br().y * tile_px);
-        box = cv::Rect(box.tl() * tile_px, end);
-    }
+    for (cv::Rect& box : boxes) box = in_px(box, tiles, image.size());
     return boxes;
+}
+
+cv::Rect contrast_box(const cv::Mat& image, int min_contrast) {
+    FIDSERVO_DEMAND(image.type() == CV_8UC1);
+    if (image.empty()) return {};
+    const cv::Mat busy = busy_tiles(image, min_contrast);
+    const cv::Rect box = cv::boundingRect(busy);
+    return box.empty() ? cv::Rect() : in_px(with_room(box, busy.size()), busy.size(), image.size());
 }
 
 }  // namespace fidservo::vision

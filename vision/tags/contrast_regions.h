@@ -14,4 +14,7 @@ namespace fidservo::vision {
 /// @param image  CV_8UC1
 std::vector<cv::Rect> contrast_regions(const cv::Mat& image, int min_contrast);
 
+/// The one box that holds all of these neighbourhoods, with the same room around it; empty for a blank image.
+cv::Rect contrast_box(const cv::Mat& image, int min_contrast);
+
 }  // namespace fidservo::vision

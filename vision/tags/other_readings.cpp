@@ -108,9 +108,14 @@ const TagFamily& smallest_with(const TagFamily& family, int last_id) {
     return *smallest;
 }
 
+struct LikelyReading {
+    TagReading reading;
+    std::size_t tags;  ///< all of whose bits are right
+};
+
 /// Readings that see something in the images, the most first; of those that see as much, the one that could
 /// least be chance.
-std::vector<TagReading> likely_readings(const std::vector<cv::Mat>& images) {
+std::vector<LikelyReading> likely_readings(const std::vector<cv::Mat>& images) {
     const std::vector<TagReading> readings = all_readings();
     std::vector<std::size_t> tags(readings.size(), 0);
     ReadingsScreen screen(readings);
@@ -124,8 +129,9 @@ std::vector<TagReading> likely_readings(const std::vector<cv::Mat>& images) {
                std::pair(tags[a], chance_of(*readings[b].print.family));
     });
     constexpr std::size_t most = 4;
-    std::vector<TagReading> likely;
-    for (std::size_t k = 0; k < std::min(most, order.size()); ++k) likely.push_back(readings[order[k]]);
+    std::vector<LikelyReading> likely;
+    for (std::size_t k = 0; k < std::min(most, order.size()); ++k)
+        likely.push_back({readings[order[k]], tags[order[k]]});
     return likely;
 }
 
@@ -185,16 +191,20 @@ OtherReadings try_other_readings(std::span<const cv::Mat> images, const TagReadi
                          .better = {},
                          .seen = look_at(bearable)};
     std::vector<Found> found_better;  // as others.better
-    for (const TagReading& likely : likely_readings(bearable)) {
-        TagReading reading = likely;
+    for (const LikelyReading& likely : likely_readings(bearable)) {
+        // Where most tags can be read at all, more than a few are without wrong bits.
+        constexpr std::size_t most_for_one_without_errors = 8;
+        const std::size_t to_beat = others.better.empty() ? others.tags + 1 : others.better.front().tags;
+        TagReading reading = likely.reading;
+        if (reading == tried || most_for_one_without_errors * likely.tags < to_beat) continue;
         Found found = found_as(bearable, reading);
-        const TagFamily& smallest = smallest_with(*likely.print.family, found.last_id);
-        if (&smallest != likely.print.family) {
+        const TagFamily& smallest = smallest_with(*reading.print.family, found.last_id);
+        if (&smallest != reading.print.family) {
             reading.print.family = &smallest;
+            if (reading == tried) continue;
             found = found_as(bearable, reading);
         }
-        const std::size_t to_beat = others.better.empty() ? others.tags + 1 : others.better.front().tags;
-        if (reading == tried || found.tags < to_beat) continue;
+        if (found.tags < to_beat) continue;
         if (!others.better.empty() && found.tags > to_beat) {
             others.better.clear();
             found_better.clear();

@@ -29,15 +29,22 @@ struct ReadingsScreen::Impl {
             books.push_back(shared_tag_book(reading, 0));
             least.push_back(least_explained(*reading.print.family));
         }
+        std::vector<std::shared_ptr<apriltag_family>> black, white;
+        for (std::size_t k = 0; k < readings.size(); ++k)
+            if (readings[k].print.border_cells == 2)
+                (books[k]->reversed_border ? white : black).push_back(books[k]);
         detector = library_detector(books, faintest_edge);
+        of_black_borders = library_detector(black, faintest_edge);
+        of_white_borders = library_detector(white, faintest_edge);
     }
 
     /// Adds what is in an image and not among `all` yet.
-    void search(const cv::Mat& image, double magnification, std::vector<SeenAs>& all) const {
+    void search(const LibraryDetector& with, const cv::Mat& image, double magnification,
+                std::vector<SeenAs>& all) const {
         constexpr double library_px = 0.5;
         image_u8_t view{image.cols, image.rows, static_cast<int>(image.step[0]), image.data};
         const std::unique_ptr<zarray_t, decltype(&apriltag_detections_destroy)> found(
-            apriltag_detector_detect(detector.get(), &view), apriltag_detections_destroy);
+            apriltag_detector_detect(with.get(), &view), apriltag_detections_destroy);
         for (int k = 0; k < zarray_size(found.get()); ++k) {
             apriltag_detection_t* tag = nullptr;
             zarray_get(found.get(), k, static_cast<void*>(&tag));
@@ -60,7 +67,8 @@ struct ReadingsScreen::Impl {
     std::vector<TagReading> readings;
     std::vector<std::shared_ptr<apriltag_family>> books;
     std::vector<LeastExplained> least;
-    LibraryDetector detector;
+    LibraryDetector detector;                            ///< of all books
+    LibraryDetector of_black_borders, of_white_borders;  ///< of two cells
 };
 
 ReadingsScreen::ReadingsScreen(const std::vector<TagReading>& readings)
@@ -73,15 +81,16 @@ std::vector<std::size_t> ReadingsScreen::seen_in(const cv::Mat& image) {
     std::vector<std::size_t> seen;
     if (std::min(image.cols, image.rows) < least_px) return seen;
     std::vector<Impl::SeenAs> tags;
-    impl_->search(image, 1.0, tags);
+    impl_->search(impl_->detector, image, 1.0, tags);
     cv::Mat larger, changed;
     cv::resize(image, larger, {}, 2.0, 2.0, cv::INTER_CUBIC);
-    impl_->search(larger, 2.0, tags);
-    // Squares that touch a tag's corners are torn off by wider paper, be it white or black.
+    impl_->search(impl_->detector, larger, 2.0, tags);
+    // Squares that touch a tag's corners, as an AprilGrid's do, are torn off by wider paper, be it white or
+    // black.
     cv::dilate(larger, changed, cv::Mat());
-    impl_->search(changed, 2.0, tags);
+    impl_->search(impl_->of_black_borders, changed, 2.0, tags);
     cv::erode(larger, changed, cv::Mat());
-    impl_->search(changed, 2.0, tags);
+    impl_->search(impl_->of_white_borders, changed, 2.0, tags);
     for (const Impl::SeenAs& tag : tags) seen.push_back(tag.reading);
     return seen;
 }

@@ -10,6 +10,7 @@ extern "C" {
 }
 
 #include "core/demand.h"
+#include "vision/tags/contrast_regions.h"
 #include "vision/tags/quad.h"
 #include "vision/tags/tag_book.h"
 #include "vision/tags/tag_pattern.h"
@@ -24,6 +25,17 @@ constexpr double library_pixel_centre = 0.5;
 
 /// Images smaller than this in either direction cannot hold a tag; the library does not expect them.
 constexpr int smallest_image_px = 10;
+
+/// The part of a large image outside of which no search finds an edge. An image of usual size is searched as
+/// it is: a part of it would give the same tags, but its corners with another rounding.
+cv::Rect part_to_search(const cv::Mat& view, const TagDetectorOptions& options) {
+    constexpr std::size_t usual_px = 1U << 24U;
+    constexpr int magnified = 2;  // an edge's contrast by the cubic magnification, times this at most
+    const cv::Rect all(0, 0, view.cols, view.rows);
+    if (view.total() <= usual_px) return all;
+    return contrast_box(
+        view, std::max(1, options.magnify ? options.min_contrast / magnified : options.min_contrast));
+}
 
 /// Those of `more` that are not among the tags yet.
 void add_new(std::vector<TagDetection>& tags, const std::vector<TagDetection>& more) {
@@ -127,8 +139,13 @@ TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
 std::vector<TagDetection> TagDetector::detect(const cv::Mat& image, TimeNs time_ns, const cv::Rect& region) {
     FIDSERVO_DEMAND(image.type() == CV_8UC1);
     const cv::Rect whole(0, 0, image.cols, image.rows);
-    const cv::Rect part = region.empty() ? whole : (region & whole);
-    if (part.width < smallest_image_px || part.height < smallest_image_px) return {};
+    cv::Rect part = region.empty() ? whole : (region & whole);
+    const auto is_too_small = [&] {
+        return part.width < smallest_image_px || part.height < smallest_image_px;
+    };
+    if (is_too_small()) return {};
+    part = part_to_search(image(part), impl_->options) + part.tl();
+    if (is_too_small()) return {};
 
     const TagPrint& print = impl_->options.reading.print;
     const cv::Mat view = image(part);

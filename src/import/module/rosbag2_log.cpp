@@ -113,6 +113,14 @@ void each_message(const Topic& topic, const char* sql, const Visit& visit) {
     }
 }
 
+/// When the bag received a message. SQLite keeps a column of integers that holds something else.
+std::int64_t reception_of(sqlite3_stmt* row) {
+    if (sqlite3_column_type(row, 0) != SQLITE_INTEGER)
+        throw CdrError(
+            fmt::format("its time of reception, '{}', is no integer", text_of(row, 0).substr(0, 80)));
+    return sqlite3_column_int64(row, 0);
+}
+
 constexpr const char* messages_of_topic =
     "SELECT timestamp, data, id FROM messages WHERE topic_id = ?1 ORDER BY timestamp, id";
 
@@ -161,7 +169,7 @@ void add_signals(const Topic& topic, TopicSignals& read, Log& log) {
 void read_signals(const Topic& topic, const Decoder& decoder, Log& log, std::uint64_t& count) {
     TopicSignals read;
     each_message(topic, messages_of_topic, [&](sqlite3_stmt* row, std::size_t, std::string_view bytes) {
-        read.received.push_back(sqlite3_column_int64(row, 0));
+        read.received.push_back(reception_of(row));
         CdrReader cdr(bytes);
         decoder.read(cdr, read);
         if (count + read.received.size() + read.count > most_values ||
@@ -202,7 +210,7 @@ void read_camera_topic(const Topic& topic, bool is_compressed, Log& log) {
     each_message(topic, messages_of_topic, [&](sqlite3_stmt* row, std::size_t part, std::string_view bytes) {
         CdrReader cdr(bytes);
         stamps.push_back(read_header(cdr));
-        received.push_back(sqlite3_column_int64(row, 0));
+        received.push_back(reception_of(row));
         messages.push_back({part, sqlite3_column_int64(row, 2)});
         if (!is_compressed && is_deep_image(bytes)) camera.is_deep = true;
     });
