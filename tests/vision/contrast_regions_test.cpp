@@ -72,6 +72,7 @@ TEST(ContrastRegions, SearchedOneByOne_GiveTheTagsOfTheWholeImage) {
     for (int k = 0; k < 60; ++k) {
         SCOPED_TRACE(::testing::Message() << "seed " << seed << ", picture " << k);
         std::vector<QuickTag> printed;
+        printed.reserve(3);
         for (int column = 0; column < 3; ++column)
             printed.push_back({cells_of(static_cast<int>(between(0, 587))),
                                {60.0 + 200.0 * column + between(-50, 50), between(40, 160)},
