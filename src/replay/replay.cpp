@@ -56,7 +56,7 @@ ReplayCount replay(ImageFrames& frames, double tag_side_mm, const std::filesyste
         for (const TagDetection& tag : result.tags) detections.push_back(detection_row(tag));
         tables.add(result.frame, detections, tracker.add(result.refined));
         count.tags += result.tags.size();
-        count.sample.offer(result.grey, result.tags.size());
+        count.sample.offer(result.grey, result.tags.size(), !result.frame.from_recording);
     };
     run_in_order([&] { return frames.next(); }, make_worker, take, threads);
     tables.close();

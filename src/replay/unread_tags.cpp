@@ -13,9 +13,9 @@ constexpr std::size_t most_sampled = 4;
 
 }  // namespace
 
-void FrameSample::offer(const cv::Mat& grey, std::size_t tags) {
+void FrameSample::offer(const cv::Mat& grey, std::size_t tags, bool is_thorough) {
     if (offered_++ % every_ != 0) return;
-    images_.push_back({grey, tags});
+    images_.push_back({grey, tags, is_thorough});
     if (images_.size() <= most_sampled) return;
     std::vector<Image> fewer;
     for (std::size_t k = 0; k < images_.size(); k += 2) fewer.push_back(images_[k]);
@@ -27,6 +27,15 @@ std::vector<cv::Mat> FrameSample::greys() const {
     std::vector<cv::Mat> greys;
     for (const Image& image : images_) greys.push_back(image.grey);
     return greys;
+}
+
+std::optional<std::size_t> FrameSample::tags_by_thorough_search() const {
+    std::size_t tags = 0;
+    for (const Image& image : images_) {
+        if (!image.is_thorough) return std::nullopt;
+        tags += image.tags;
+    }
+    return tags;
 }
 
 std::string options_for(const vision::TagReading& reading, const vision::TagReading& tried) {
@@ -63,7 +72,8 @@ std::vector<std::string> unread_tags_text(const FrameSample& sample, std::size_t
             return vision::looks_unread(image.grey, image.tags);
         });
     if (!looks_unread || sample.images().empty()) return {};
-    const vision::OtherReadings others = vision::try_other_readings(sample.greys(), tried);
+    const vision::OtherReadings others =
+        vision::try_other_readings(sample.greys(), tried, sample.tags_by_thorough_search());
     std::vector<std::string> lines;
     for (const vision::TriedReading& better : others.better)
         lines.push_back(

@@ -5,6 +5,7 @@
 #include "vision/tags/tag_book.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,16 @@ class FrameSample {
     struct Image {
         cv::Mat grey;
         std::size_t tags;
+        bool is_thorough;
     };
 
     /// Offers the next image of the sequence, CV_8UC1, to the sample.
-    void offer(const cv::Mat& grey, std::size_t tags);
+    /// @param is_thorough  the tags are those of a search with vision::thorough_options()
+    void offer(const cv::Mat& grey, std::size_t tags, bool is_thorough = false);
     const std::vector<Image>& images() const { return images_; }
     std::vector<cv::Mat> greys() const;
+    /// Of all images; nothing if some were not searched thoroughly.
+    std::optional<std::size_t> tags_by_thorough_search() const;
 
   private:
     std::vector<Image> images_;

@@ -229,6 +229,19 @@ class WriterWithLog {
     sqlite3* bag_ = nullptr;
 };
 
+TEST(BagLog, TopicOfTwoTypes_IsTwoTopics) {
+    const TemporaryFolder folder;
+    testing::make_bag(
+        folder / "b.db3",
+        {{"/u", "std_msgs/msg/Float64", {{1, testing::float64(1.5)}}},
+         {"/u", "std_msgs/msg/Int32", {{2, testing::CdrBytes().number(std::int32_t{7}).bytes()}}}});
+    const Log log = read_log(folder / "b.db3", testing::no_table_options);
+    ASSERT_NE(log.find("/u(std_msgs/msg/Float64)"), nullptr);
+    ASSERT_NE(log.find("/u(std_msgs/msg/Int32)"), nullptr);
+    EXPECT_THAT(log.find("/u(std_msgs/msg/Int32)")->values, ElementsAre(7.0));
+    EXPECT_EQ(log.find("/u"), nullptr) << "it could be either";
+}
+
 TEST(BagWithLogOfChanges, WithoutTheLog_IsReadAsFarAsItGoes) {
     const TemporaryFolder folder;
     make_numbers(folder / "live.db3", 0, 3);

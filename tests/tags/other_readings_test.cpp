@@ -112,6 +112,16 @@ TEST(OtherReadings, UsualTags_HaveNoBetterReading) {
     EXPECT_FALSE(looks_unread(picture.image, picture.tags.size()));
 }
 
+TEST(OtherReadings, NumberOfTagsThatIsKnown_IsNotCountedAgain) {
+    std::mt19937_64 random(3);
+    const Picture picture = picture_of({{.border_cells = 2}, false}, random);
+    const std::vector<cv::Mat> images{picture.image};
+    EXPECT_THAT(try_other_readings(images, {}, 0).better, SizeIs(1));
+    const OtherReadings others = try_other_readings(images, {}, picture.tags.size());
+    EXPECT_EQ(others.tags, picture.tags.size());
+    EXPECT_THAT(others.better, SizeIs(0)) << "as many were found";
+}
+
 /// Wider borders and small families explain part of the same squares by chance.
 TEST(OtherReadings, OfTheSameSquares_AreOneAlone) {
     for (const TagReading& reading_of_print : {TagReading{{.inverted = true}, false}, TagReading{{}, true},

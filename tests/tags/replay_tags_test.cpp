@@ -141,5 +141,14 @@ TEST(FrameSample, ManyImages_AreAFewEvenlySpread) {
     EXPECT_GT(kept.back().tags, 50U);
 }
 
+TEST(FrameSample, TagsOfThoroughSearches_AreCountedWhereAllWereThorough) {
+    FrameSample sample;
+    sample.offer({}, 3, true);
+    sample.offer({}, 4, true);
+    EXPECT_EQ(sample.tags_by_thorough_search(), 7U);
+    sample.offer({}, 5);
+    EXPECT_EQ(sample.tags_by_thorough_search(), std::nullopt);
+}
+
 }  // namespace
 }  // namespace fidservo

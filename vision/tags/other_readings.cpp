@@ -184,10 +184,13 @@ bool looks_unread(const cv::Mat& image, std::size_t tags_found) {
     return patterned > 0 && patterned >= 2 * tags_found;
 }
 
-OtherReadings try_other_readings(std::span<const cv::Mat> images, const TagReading& tried) {
+OtherReadings try_other_readings(std::span<const cv::Mat> images, const TagReading& tried,
+                                 std::optional<std::size_t> tags) {
     const std::vector<cv::Mat> bearable = of_bearable_size(images);
+    const auto is_as_large = [](const cv::Mat& a, const cv::Mat& b) { return a.size() == b.size(); };
+    if (!std::ranges::equal(images, bearable, is_as_large)) tags.reset();
     OtherReadings others{.images = images.size(),
-                         .tags = found_as(bearable, tried).tags,
+                         .tags = tags ? *tags : found_as(bearable, tried).tags,
                          .better = {},
                          .seen = look_at(bearable)};
     std::vector<Found> found_better;  // as others.better

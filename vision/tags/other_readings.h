@@ -5,6 +5,7 @@
 #include "vision/tags/tag_book.h"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,7 +48,9 @@ bool looks_unread(const cv::Mat& image, std::size_t tags_found);
 /// million pixels are reduced. Takes some ten times as long as one search: a second for a few images of a
 /// million pixels.
 /// @param images  CV_8UC1
-OtherReadings try_other_readings(std::span<const cv::Mat> images, const TagReading& tried);
+/// @param tags    what a thorough search for `tried` found in them, if that is known
+OtherReadings try_other_readings(std::span<const cv::Mat> images, const TagReading& tried,
+                                 std::optional<std::size_t> tags = {});
 
 /// The images' statistics and, of the known causes for missing tags, those that apply; one line.
 std::string text_of(const ImagesSeen& seen, const TagReading& tried);

@@ -254,7 +254,7 @@ void read_topic(const Topic& topic, Log& log, std::uint64_t& count) {
         read_camera_topic(topic, is_compressed, log);
 }
 
-/// The topics of all files, by name.
+/// The topics of all files, by name; those of one name and several types as NAME(TYPE).
 std::vector<Topic> topics_of(const std::vector<std::filesystem::path>& files, bool (*is_interrupted)(),
                              Log& log) {
     std::map<std::tuple<std::string, std::string, std::string>, Topic> topics;
@@ -275,6 +275,10 @@ std::vector<Topic> topics_of(const std::vector<std::filesystem::path>& files, bo
     std::vector<Topic> all;
     all.reserve(topics.size());
     for (auto& [key, topic] : topics) all.push_back(std::move(topic));
+    std::map<std::string, int> uses;
+    for (const Topic& topic : all) ++uses[topic.name];
+    for (Topic& topic : all)
+        if (uses.at(topic.name) > 1) topic.name += fmt::format("({})", topic.type);
     return all;
 }
 
