@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "core/sanitizer.h"
+
 #include <cstdlib>
 #include <string_view>
 
 namespace fidservo::testing {
-
-/// Whether the address or thread sanitizer is compiled in. Each of them maps terabytes of addresses, so that
-/// no limit on a process's address space can be tried.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool has_sanitizer = true;
-#else
-inline constexpr bool has_sanitizer = false;
-#endif
 
 /// How many cases a test draws. A sanitizer slows every one of them five to ten times, and what it looks for
 /// shows in the first ones.

@@ -2,6 +2,7 @@
 #include "src/import/guarded.h"
 
 #include "core/input_error.h"
+#include "core/sanitizer.h"
 #include "src/import/interrupted.h"
 #include "src/import/log_bytes.h"
 
@@ -27,23 +28,12 @@ enum class Ending : char { log = 'L', fault = 'F' };
 
 constexpr int out_of_memory = 77;
 
-/// The address and thread sanitizers map more than any limit.
-constexpr bool has_sanitizer() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    return true;
-#elif defined(__has_feature)
-    return __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-    return false;
-#endif
-}
-
 void bound_this_process(const ReadingLimits& limits) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rlimit memory{limits.bytes, limits.bytes}, none{0, 0};
     const rlimit time{limits.processor_s, limits.processor_s + 1};
-    if (!has_sanitizer()) ::setrlimit(RLIMIT_AS, &memory);
+    if (!has_sanitizer) ::setrlimit(RLIMIT_AS, &memory);
     ::setrlimit(RLIMIT_CPU, &time);
     ::setrlimit(RLIMIT_CORE, &none);
 }

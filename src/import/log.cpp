@@ -28,13 +28,11 @@ std::string without_unit(const std::string& name) {
     const std::string index(index_of_name(name));
     const std::string whole = name.substr(0, name.size() - index.size());
     const std::string last = whole.substr(whole.rfind('/') + 1);
-    const ColumnTitleParts parts = title_parts(last);
+    const std::string plain = title_parts(last).name;
     const bool is_at_end =
         !last.empty() && std::string_view("])}>").find(last.back()) != std::string_view::npos;
-    if (!is_at_end || parts.unit.empty() || parts.name.empty() || !last.starts_with(parts.name) ||
-        is_of_digits(parts.unit))
-        return name;
-    return whole.substr(0, whole.size() - last.size()) + parts.name + index;
+    if (!is_at_end || unit_of_name(last).empty() || plain.empty() || !last.starts_with(plain)) return name;
+    return whole.substr(0, whole.size() - last.size()) + plain + index;
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include "src/fleet/workers.h"
 
 #include "core/input_error.h"
-#include "tests/effort.h"
+#include "core/sanitizer.h"
 #include "tests/src/temporary_folder.h"
 
 #include <cstdlib>
@@ -105,7 +105,7 @@ TEST(Workers, KilledProcess_IsStartedAgainAndLeftUndoneAfterThree) {
 }
 
 TEST(Workers, MoreMemoryThanAllowed_LeavesTheTaskUndone) {
-    if (testing::has_sanitizer) GTEST_SKIP() << "a sanitizer's own maps exceed any limit";
+    if (has_sanitizer) GTEST_SKIP() << "a sanitizer's own maps exceed any limit";
     const TaskWork work{.work =
                             [&](std::size_t task) {
                                 const std::vector<char> much((task + 1) * 400'000'000, 'x');

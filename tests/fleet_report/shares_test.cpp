@@ -87,8 +87,7 @@ TEST(PartOfTheUnits, ThoseThatAreNamed_AreNoPart) {
 
 TEST(LimitedSizes, AllNamed_IsLeastSquares) {
     const std::vector<Level> levels{{2.0, 0.1}, {2.2, 0.1}, {1.8, 0.1}};
-    TakenShares taken;
-    taken.columns.resize(3, 0);
+    TakenShares taken(3);
     taken.take(std::vector<std::size_t>{0, 1, 2}, 64.0);
     const LimitedSizes found = limited_sizes(levels, taken);
     EXPECT_NEAR(found.sizes[0].value, 2.0, 1e-3);
@@ -108,8 +107,7 @@ TEST(LimitedSizes, UnitsOfWhichMostAreNeverNamed_SizeIsNotDrawnToNothing) {
         levels.push_back(std::abs(value) < limit ? Level{0.0, std, limit} : Level{value, std});
         all.push_back(u);
     }
-    TakenShares taken;
-    taken.columns.resize(1000, 0);
+    TakenShares taken(1000);
     taken.take(all, 1.0);
     const LimitedSizes found = limited_sizes(levels, taken);
     EXPECT_NEAR(found.sizes[0].value, truth, 0.03) << "seed " << seed;

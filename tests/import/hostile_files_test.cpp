@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files that are cut off, empty, not what their names say, or made to hurt: one line each, and no more.
 #include "core/input_error.h"
+#include "core/sanitizer.h"
 #include "src/import/guarded.h"
 #include "src/import/import_module.h"
 #include "src/import/read_log.h"
 #include "src/process/interrupt.h"
-#include "tests/effort.h"
 #include "tests/import/made_files.h"
 #include "tests/src/message_of.h"
 #include "tests/src/run_program.h"
@@ -166,7 +166,7 @@ TEST(GuardedReading, WhatHappensInIt_IsOneLine) {
                 HasSubstr("bad.mat: the format's library"));
     EXPECT_THAT(message_of([] { read_guarded("bad.h5", never_end, {.processor_s = 1}); }),
                 HasSubstr("bad.h5: reading it took more than 1 s of the processor"));
-    if (fidservo::testing::has_sanitizer) return;
+    if (has_sanitizer) return;
     EXPECT_THAT(message_of([] { read_guarded("bad.mat", take_all_memory); }),
                 HasSubstr("takes more memory than the 8 GiB"));
 }

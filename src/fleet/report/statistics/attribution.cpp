@@ -17,7 +17,6 @@ namespace fidservo::fleet {
 namespace {
 
 constexpr std::size_t most_shares = 24, most_at_once = 8, least_units = 3;
-constexpr double least_log_odds = 2.944438979166440;  // log 19
 
 /// A set of units that may have a share.
 struct CandidateSet {
@@ -68,6 +67,12 @@ Explanation explanation_by(std::span<const Level> levels, std::span<const TakenS
     Explanation explanation(levels);
     for (const TakenSet& one : taken) explanation.take(one.set->units, one.law);
     return explanation;
+}
+
+TakenShares shares_of(std::size_t units, std::span<const TakenSet> taken) {
+    TakenShares shares(units);
+    for (const TakenSet& one : taken) shares.take(one.set->units, one.law);
+    return shares;
 }
 
 /// The likeliest part of the units to have a share beside an explanation, those of which most, or least, is
@@ -170,17 +175,18 @@ std::vector<Share> pruned(std::span<const Level> levels, const CandidateSets& se
 /// Takes away a part that has no odds of 19 to 1 once levels that are not named are what they are: units that
 /// happen to be named differ from those that are not, which as normal laws are all about 0.
 /// @return whether there was one
-bool take_away_part_by_naming(std::span<const Level> levels, std::span<const Level> normals,
-                              std::vector<TakenSet>& taken) {
+bool take_away_part_by_naming(std::span<const Level> levels, std::vector<TakenSet>& taken) {
+    const auto is_part = [](const TakenSet& one) { return !one.set->which; };
+    if (std::ranges::none_of(taken, is_part)) return false;
     const auto log_likelihood = [&](std::span<const TakenSet> sets) {
-        return limited_sizes(levels, explanation_by(normals, sets).taken()).log_likelihood;
+        return limited_sizes(levels, shares_of(levels.size(), sets)).log_likelihood;
     };
+    const double with_all = log_likelihood(taken);
     for (std::size_t j = 0; j < taken.size(); ++j) {
-        if (taken[j].set->which) continue;
+        if (!is_part(taken[j])) continue;
         std::vector<TakenSet> others = taken;
         others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
-        if (log_likelihood(taken) - log_likelihood(others) + taken[j].set->log_prior_odds >= least_log_odds)
-            continue;
+        if (with_all - log_likelihood(others) + taken[j].set->log_prior_odds >= least_log_odds) continue;
         taken = std::move(others);
         return true;
     }
@@ -207,9 +213,8 @@ Attribution attribute(std::span<const Level> levels, std::span<const std::vector
     }
     Attribution attribution;
     attribution.shares = pruned(normals, sets, taken);
-    while (take_away_part_by_naming(levels, normals, taken))
-        attribution.shares = pruned(normals, sets, taken);
-    LimitedSizes found = limited_sizes(levels, explanation_by(normals, taken).taken());
+    while (take_away_part_by_naming(levels, taken)) attribution.shares = pruned(normals, sets, taken);
+    LimitedSizes found = limited_sizes(levels, shares_of(levels.size(), taken));
     for (std::size_t j = 0; j < taken.size(); ++j) attribution.shares[j].size = found.sizes[j];
     attribution.levels = std::move(found.levels);
     attribution.spread = found.spread;

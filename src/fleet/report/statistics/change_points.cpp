@@ -118,7 +118,6 @@ std::vector<ChangeColumn> all_but(std::span<const Point> all, std::span<const Ch
 /// A step at a time at which many units have changed, beside the unit's other changes.
 std::optional<Change> step_at(const CommonStep& common, std::span<const Point> points, const Scatter& scatter,
                               std::span<const Change> others) {
-    constexpr double least_log_ratio = 2.944438979166440;  // log 19
     const auto index_at = [&](double time_weeks) {
         return static_cast<std::size_t>(std::ranges::lower_bound(points, time_weeks, {}, &Point::time_weeks) -
                                         points.begin());
@@ -131,7 +130,7 @@ std::optional<Change> step_at(const CommonStep& common, std::span<const Point> p
     if (first >= end || std::ranges::any_of(others, is_here)) return {};
     const auto [log_ratio, likeliest] =
         scan(points, scatter, columns_of(points, others)).step_within(first, end - 1);
-    if (log_ratio < least_log_ratio) return {};
+    if (log_ratio < least_log_odds) return {};
     Change change;
     change.first = likeliest;
     change.earliest = first;

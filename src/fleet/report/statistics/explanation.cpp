@@ -75,8 +75,7 @@ double FurtherColumn::log_gain(const AtSpread& at, double law) const {
     return -0.5 * std::log1p(gain) + 0.5 * product_ * product_ * law * law / (1.0 + gain);
 }
 
-Explanation::Explanation(std::span<const Level> levels) : levels_(levels) {
-    taken_.columns.resize(static_cast<Eigen::Index>(levels.size()), 0);
+Explanation::Explanation(std::span<const Level> levels) : levels_(levels), taken_(levels.size()) {
     fit();
 }
 

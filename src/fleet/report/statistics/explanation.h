@@ -23,6 +23,8 @@ double log_prior_of_spread(std::size_t k);
 
 /// Shares that were taken in: a column of zeros and ones each, and the law of its size.
 struct TakenShares {
+    explicit TakenShares(std::size_t units) : columns(static_cast<Eigen::Index>(units), 0) {}
+
     Eigen::MatrixXd columns;  ///< a row for each unit
     std::vector<double> laws;
 
@@ -71,7 +73,6 @@ class Explanation {
     std::vector<WithFurther> with_first_of(std::span<const std::size_t> units) const;
     void take(std::span<const std::size_t> units, double law);
 
-    const TakenShares& taken() const { return taken_; }
     /// Units by what the shares leave of their levels, at the likeliest spread, the largest first.
     std::vector<std::size_t> by_what_is_left() const;
 

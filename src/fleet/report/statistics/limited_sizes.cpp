@@ -117,9 +117,10 @@ LimitedSizes limited_sizes(std::span<const Level> levels, const TakenShares& tak
     std::array<double, spread_count> terms{};
     for (std::size_t k = 0; k < spread_count; ++k) {
         const AtOneSpread at(levels, taken, spread_at(k));
-        terms[k] = log_prior_of_spread(k) + at.log_integral();
-        if (at.log_integral() <= best) continue;
-        best = at.log_integral();
+        const double log_integral = at.log_integral();
+        terms[k] = log_prior_of_spread(k) + log_integral;
+        if (log_integral <= best) continue;
+        best = log_integral;
         found = at.sizes();
     }
     found.log_likelihood = log_of_sum(terms);

@@ -5,6 +5,9 @@
 
 namespace fidservo::fleet {
 
+/// The natural logarithm of the odds from which on something is told, 19 to 1.
+inline constexpr double least_log_odds = 2.944438979166440;
+
 /// One diagnosis.
 struct Point {
     double time_weeks;  ///< in a time scale that all points share
