@@ -70,8 +70,8 @@ void look_at_hall(const MicroParameters& micro, std::vector<Finding>& findings) 
              fmt::format("the curve rises from {:.4g} to {:.4g} mm only: beyond, a reading has two places",
                          low_mm, high_mm),
              fmt::format("rising over micro.travel_mm, {:g} to {:g} mm", micro.low_mm, micro.high_mm)});
-    const auto [least_V, most_V] = std::minmax(hall_voltage_V(hall, std::max(micro.low_mm, low_mm)),
-                                               hall_voltage_V(hall, std::min(micro.high_mm, high_mm)));
+    const auto [least_V, most_V] = std::minmax({hall_voltage_V(hall, std::max(micro.low_mm, low_mm)),
+                                                hall_voltage_V(hall, std::min(micro.high_mm, high_mm))});
     if (least_V < 0.0 || most_V > hall.adc_range_V)
         findings.push_back(
             {"micro.hall.span_V", fmt::format("{:g}", hall.span_V),
