@@ -5,6 +5,7 @@
 #include "gap/fit/score.h"
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
+#include "tests/gap/nothing_named.h"
 #include "tests/gap/simulated_campaign.h"
 
 #include <array>
@@ -15,15 +16,8 @@
 namespace fidservo::gap {
 namespace {
 
-CrossFit nothing(const Evidence& evidence) {
-    const CrossFitter fitter(evidence, evidence.windows().size(), [] { return false; });
-    CrossFit cross{.of_half = {}, .mean_squares = {}};
-    fitter.judge(cross);
-    return cross;
-}
-
 std::vector<Sketch> scanned_at(const Evidence& evidence, plant::Port port) {
-    return scanned(evidence, nothing(evidence), port,
+    return scanned(evidence, testing::nothing_named(evidence), port,
                    terms_of(port, covered_ranges(evidence), std::array{5.0, 10.0}), 3);
 }
 
