@@ -136,9 +136,11 @@ double held_mm(const MicroStage& stage, const MicroStageState& state);
 
 /// What formulas see at the Hall sensor.
 struct HallSight {
-    double time_s = 0.0, platform_mm = 0.0;
-    double wire_degC = 0.0, room_degC = 0.0;
-    CarriageInfluence carriage = {};
+    double time_s = 0.0;              ///< since the recording's first row
+    double platform_mm = 0.0;         ///< the platform's place, which the sensor sees
+    double wire_degC = 0.0;           ///< the wire's temperature
+    double room_degC = 0.0;           ///< the room's temperature
+    CarriageInfluence carriage = {};  ///< the carriage's motion below the platform
 };
 
 /// What formulas add to the Hall sensor's voltage, V.
