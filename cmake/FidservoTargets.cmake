@@ -68,7 +68,7 @@ function(fidservo_library name)
 endfunction()
 
 # The allocator keeps what a diagnosis gives back, as in the program: the same bounds as in src/cli/main.cpp.
-set(fidservo_test_environment "GLIBC_TUNABLES=glibc.malloc.mmap_threshold=33554432:glibc.malloc.trim_threshold=268435456")
+set(fidservo_test_environment "GLIBC_TUNABLES=glibc.malloc.mmap_threshold=33554432:glibc.malloc.trim_threshold=268435456:glibc.malloc.arena_max=1")
 
 # fidservo_shards(NAME LABEL FILTER SECONDS MOST SERIAL): the cases of a test program that FILTER names, which take SECONDS of
 # processor time, in as many processes as make each last MOST of them. ctest starts the costliest first, so that the end of all is

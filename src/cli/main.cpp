@@ -9,9 +9,10 @@ namespace {
 
 /// A diagnosis makes predictions of some MB by the thousand, on several threads. The allocator keeps what
 /// they leave: given back to the system, every page is faulted in again, which takes as long as the
-/// diagnosis.
+/// diagnosis. It keeps it for all threads, as what each kept for itself would add up.
 void keep_freed_memory() {
     constexpr int mapped_from_bytes = 32 << 20, returned_from_bytes = 256 << 20;
+    mallopt(M_ARENA_MAX, 1);
     mallopt(M_MMAP_THRESHOLD, mapped_from_bytes);
     mallopt(M_TRIM_THRESHOLD, returned_from_bytes);
 }
