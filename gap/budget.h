@@ -82,7 +82,8 @@ class Budget {
         const Budget& budget_;
     };
 
-    /// Throws BudgetEnded after the end of the present part, and ShareEnded after that of a share.
+    /// Throws BudgetEnded if the time of the search or, after end_search(), of the whole diagnosis is over,
+    /// or if the user has interrupted it; ShareEnded if a Share of the search's time is over.
     void check() const;
     /// Counts predicted rows.
     void count(std::uint64_t rows) const { rows_.fetch_add(rows, std::memory_order_relaxed); }

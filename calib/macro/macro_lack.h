@@ -30,9 +30,10 @@ struct MacroLacks {
 
 MacroLacks lacks_of(const MacroEstimator& estimator, const MacroFit& fit);
 
-/// Variance of a figure's changes, weighted by the fractions of the residual that the forces would remove:
-/// the uncertainty from not knowing the right model (Buckland, Burnham, Augustin, Model selection: an
-/// integral part of inference, Biometrics 53(2), 1997).
+/// Mean square change of a figure of the model, over the models that would each have one of the missing
+/// forces, weighted by MacroLack::share: the variance that comes from not knowing the right model (Buckland,
+/// Burnham, Augustin, Model selection: an integral part of inference, Biometrics 53(2), 1997).
+/// @param gradient  of the figure, with respect to the parameters
 double shift_variance(const std::vector<MacroLack>& lacks, const MacroVector& gradient);
 
 }  // namespace fidservo::calib
