@@ -261,9 +261,9 @@ class Search {
     Together balanced_beside(const CrossFit& base) const;
     class CloserFit;
     /// The force wave that a scan finds (gap/starts/wave_scan.h) in those encoder windows of the first half
-    /// that are far off without a wave. Empty unless the predicted carriage runs away by 10 mm r.m.s. in at
-    /// least three windows, as it does where a weak wave holds the real one; empty for a carriage on a belt,
-    /// whose predictions cost too much.
+    /// that are far off without a wave. Empty unless the predicted position is off by 10 mm r.m.s. in at
+    /// least three windows, since a weak wave shows only in which way a carriage takes; empty for a carriage
+    /// on a belt, whose predictions cost too much.
     std::optional<plant::EffectSetting> scanned_wave(const Hypothesis& beside, const Candidate& wave) const;
     /// Loss that an explanation saves relative to a base, in those windows of the first half in which the
     /// promise of candidates is estimated.
