@@ -156,7 +156,7 @@ class Diagnosis:
     where: tuple[BlockProbability, ...]
     """Most likely first."""
     effects: tuple[FoundEffect, ...]
-    """First the one that alone would make the largest gap."""
+    """Sorted by the gap that each alone would cause, largest first."""
     candidates: tuple[TriedEffect, ...]
     """Every effect that was tried, most likely first."""
     gap: TotalGap

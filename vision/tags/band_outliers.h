@@ -25,14 +25,15 @@ void judge_blocks(const EdgeBand& band, float allowance, const std::vector<kerne
                   BlockJudgement& judgement);
 
 /// Extends the rejected parts to their surroundings, since glare and shadow fade out gradually, and a part
-/// that is too faint for judge_blocks() still shifts the tag's position: - A crossing is damaged if a block
-/// along one of its edges does not fit. (Blocks where lines meet do not count: they are the first to misfit
-/// where print or camera deviate from the model.) - At and beside a damaged crossing, an edge or crossing is
-/// left out as a whole if a block of it does not fit, or if the sum of its residuals exceeds 3 standard
-/// deviations: light that is added or taken away has one sign, and a sum detects a third of the disturbance
-/// that a mean square detects. - With an edge the crossing that it starts from is left out, and with a
-/// crossing all of its edges, however well they fit: if noise decided about the faintest ones, the tag's
-/// place would scatter more than its stated uncertainty.
+/// that is too faint for judge_blocks() still shifts the tag's position:
+/// - A crossing is damaged if a block along one of its edges does not fit. (Blocks at the crossing itself do
+///   not count: they are the first to misfit where print or camera deviate from the model.)
+/// - At and beside a damaged crossing, an edge or crossing is left out as a whole if a block of it does not
+///   fit, or if the sum of its residuals exceeds 3 standard deviations: a disturbance of light has one sign,
+///   and a sum detects disturbances a third as large as a mean square does.
+/// - If an edge is left out, so is the crossing from which it starts; if a crossing is left out, so are all
+///   of its edges, even if they fit: if noise decided about the faintest ones, the tag's position would
+///   scatter more than its stated uncertainty.
 /// @param judgement  the result of judge_blocks(); blocks left out in addition have an excess above 1
 ///                   afterwards
 void follow_damage(const EdgeBand& band, const std::vector<kernel::Residuals>& residuals,
