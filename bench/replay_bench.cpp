@@ -58,14 +58,14 @@ void make_recording(const fs::path& folder, int frames) {
     if (!writer.close()) throw RunFault("disk");
 }
 
-/// The same frames as files that nobody knows more about.
+/// Writes the same frames as plain image files, without a recording's tables.
 void make_image_folder(const fs::path& folder, int frames) {
     fs::create_directories(folder);
     for (int k = 0; k < frames; ++k)
         cv::imwrite((folder / fmt::format("{:04}.pgm", k)).string(), machine_frame(k));
 }
 
-/// The shared photographs, many times.
+/// Fills a folder with the test photographs, each of them `copies` times.
 void make_photographs(const fs::path& folder, int copies) {
     fs::create_directories(folder);
     for (const auto& entry : fs::directory_iterator(fs::path(FIDSERVO_DATA_DIR) / "photos")) {

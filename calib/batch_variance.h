@@ -21,10 +21,10 @@ struct BatchVariance {
 };
 
 /// Batches begin as single pieces and are doubled while neighbouring batches are correlated (one-sided test
-/// of the first autocorrelation at 20 %, as too short batches do more harm than too long ones) and eight or
-/// more would be left. Remaining correlation between neighbours is included if it is positive. The degrees of
-/// freedom are those of the batches by Satterthwaite's rule on their squares, 3 (sum s^2)^2 / sum s^4 under a
-/// normal distribution, at most their number less one.
+/// of the first autocorrelation at 20 %, as too short batches do more harm than too long ones) and at least
+/// eight batches would be left. Remaining correlation between neighbouring batches is included if it is
+/// positive. The degrees of freedom follow from the batch sums s by Satterthwaite's rule, 3 (sum s^2)^2 / sum
+/// s^4 for a normal distribution, but are at most the number of batches less one.
 /// @param recordings  influences in the order of time, one series per recording; no batch spans two
 /// recordings
 /// @param fitted  number of parameters fitted to these data, for which the squares are corrected

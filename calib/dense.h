@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Linear algebra on dense matrices of any size. The compiler takes seconds for every type of product and
-// eigenvalue iteration; here each is compiled once.
+// Linear algebra on dense matrices of any size. Each function is compiled once here, since the compiler takes
+// seconds for every type of product and eigenvalue iteration.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -19,7 +19,7 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b
 /// (A^T A)^-1: the covariance of the result of least_squares() for errors of unit variance.
 Eigen::MatrixXd inverse_of_gram(const Eigen::MatrixXd& a);
 
-/// The rotation that takes unit vector `from` to unit vector `to` by the smallest angle; for opposite
+/// The rotation by the smallest angle that maps the unit vector `from` to the unit vector `to`; for opposite
 /// vectors, half a turn about some axis at right angles to them.
 Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Whether recordings agree on a number, and how much larger its uncertainty is where they do not.
+// Tests whether recordings agree on a number, and estimates by how much its uncertainty increases if they do
+// not.
 #include <cstddef>
 #include <span>
 
@@ -17,12 +18,12 @@ struct RecordingEstimate {
 struct Heterogeneity {
     std::size_t recordings;  ///< k
     double q;                ///< Cochran's Q = sum w (value - m)^2
-    /// p-value of a Q as large if all recordings had one true value: Welch's test, which allows for the
-    /// weights' being estimates; 1 for fewer than two recordings.
+    /// p-value: probability of a Q at least as large if all recordings had the same true value. Welch's test,
+    /// which allows for estimated weights; 1 for fewer than two recordings.
     double probability;
     /// Standard deviation of the recordings' true values about their mean (DerSimonian and Laird).
     double between_std;
-    /// The variance that this adds to an estimate from all the data: between_std^2 sum (w / sum w)^2.
+    /// The variance that between_std adds to an estimate from all the data: between_std^2 sum (w / sum w)^2.
     double added_variance;
     double added_freedom;  ///< degrees of freedom of added_variance, k - 1
     /// Mean with weights 1 / (std^2 + between_std^2), and its variance from the scatter about it (Hartung, An
@@ -30,10 +31,10 @@ struct Heterogeneity {
     /// weights; k - 1 degrees of freedom.
     double mean, mean_variance;
     std::size_t low, high;  ///< indices of the two recordings that are farthest apart
-    double apart;           ///< difference of those two in its standard errors
+    double apart;           ///< difference of those two, divided by its standard error
 };
 
-/// Computes all of it. Sources: Cochran, The combination of estimates from different experiments, Biometrics
+/// Computes all fields. Sources: Cochran, The combination of estimates from different experiments, Biometrics
 /// 10(1), 1954; Welch, On the comparison of several mean values, Biometrika 38, 1951, of which Student's test
 /// of two means with unequal variances is the case k = 2; DerSimonian, Laird, Meta-analysis in clinical
 /// trials, Controlled Clinical Trials 7(3), 1986.

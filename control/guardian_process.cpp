@@ -93,8 +93,9 @@ class Watch {
     }
 
   private:
-    /// A loop that must run at 1 kHz and does not stands still, for whatever reason. A simulation does not if
-    /// it is merely short of processor time.
+    /// Whether the loop counts as stopped. A loop that must run at 1 kHz does as soon as its heartbeat is
+    /// missing; a simulation, which may only be short of processor time, does so later, or at once if its
+    /// process is not able to run.
     bool stands_still() {
         const std::uint64_t beats = memory_.beats.load(std::memory_order_acquire);
         const bool missing = heartbeat_.look(beats);

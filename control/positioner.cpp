@@ -25,7 +25,8 @@ bool in_reach(const PositionerParams& params, double position_mm) {
     return position_mm >= params.reach_low_mm && position_mm <= params.reach_high_mm;
 }
 
-/// Lets the macro stage take the whole way but what brings the platform back to where it has reach.
+/// Begins a move of the macro stage by the distance needed, less the distance by which the platform has to
+/// move to return to its parking range, from which it can move both ways.
 void begin_macro(const PositionerParams& params, PositionerState& state, double needed_mm) {
     const double platform_mm = state.micro.average_mm;
     const bool parked_well = platform_mm >= params.park_low_mm && platform_mm <= params.park_high_mm;

@@ -17,8 +17,9 @@
 
 namespace fidservo {
 
-/// f(a, b) on a regular temperature grid, bilinear between nodes; in a cell on the diagonal a = b, linear on
-/// the triangle below it. Outside the grid temperatures are clamped. Immutable.
+/// The FOD curves f(a, b), in mm, at the nodes of a regular grid of temperatures. Between nodes they are
+/// interpolated bilinearly; in a cell on the diagonal a = b, linearly on the triangle b <= a. Temperatures
+/// outside the grid are clamped to it. Immutable.
 class FodTable {
   public:
     /// @param nodes_degC  n ascending, equally spaced temperatures, n >= 2

@@ -9,15 +9,15 @@
 
 namespace fidservo::gap {
 
-/// Adds evidence against a block: its probability p becomes 1 - (1 - p)(1 - probability). The list is ordered
-/// by probability, the likeliest first; blocks within a twentieth of each other are in the order in which
-/// they were accused.
+/// Adds evidence against a block: its probability p becomes 1 - (1 - p)(1 - probability). The list is sorted
+/// by probability, the most likely first; blocks whose probabilities differ by less than 0.05 are in the
+/// order in which they were accused.
 void accuse(std::vector<BlockProbability>& where, const std::string& block, double probability);
 
 /// The mean probability of the effects named; 0 without effects.
 double mean_probability(const std::vector<FoundEffect>& effects);
 
-/// Whether the mean probability of the effects named is above a half. If it is not, they may stand in for
+/// Whether the mean probability of the effects named is above a half. If it is not, they may only imitate
 /// another cause.
 bool are_credible(const std::vector<FoundEffect>& effects);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The time that a diagnosis may take, and whether its user still wants it.
+// The time that a diagnosis may take, and its interruption by the user.
 //
-// A search has no natural end: it ends when its time is spent or its user says so, and the best result until
-// then is kept. All long computations check the budget regularly.
+// A search has no natural end: it ends when its time is spent or its user interrupts it, and the best result
+// until then is kept. All long computations check the budget regularly.
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -66,13 +66,13 @@ class Budget {
     Budget(double search_s, double whole_s, std::function<bool()> interrupted,
            Seconds seconds = Seconds::by_clock);
 
-    /// As long as it lives, the search may take no more than a share of the time that was left to it: one
-    /// part of a search that comes to nothing leaves time for the others. Without an end of the search there
-    /// is no end of its shares. One at a time.
+    /// During its lifetime, the search may take no more than a share of the time that remained for it, so
+    /// that an unsuccessful part of a search leaves time for the others. Has no effect if the search has no
+    /// time limit. Only one may exist at a time.
     class Share {
       public:
-        /// @param budget  outlives it
-        /// @param share   of the time that is left, 0 to 1
+        /// @param budget  must outlive this object
+        /// @param share  fraction of the remaining time of the search, 0 to 1
         Share(const Budget& budget, double share);
         ~Share() { budget_.share_end_s_.store(never, std::memory_order_relaxed); }
         Share(const Share&) = delete;
@@ -82,7 +82,8 @@ class Budget {
         const Budget& budget_;
     };
 
-    /// Throws BudgetEnded after the end of the present part, and ShareEnded after that of a share.
+    /// Throws BudgetEnded if the time of the search or, after end_search(), of the whole diagnosis is over,
+    /// or if the user has interrupted it; ShareEnded if a Share of the search's time is over.
     void check() const;
     /// Counts predicted rows.
     void count(std::uint64_t rows) const { rows_.fetch_add(rows, std::memory_order_relaxed); }

@@ -61,18 +61,18 @@ struct Support {
     double gap_after = 1.0;  ///< total gap that remains with all named effects, in floors
     double gap_left = 0.0;   ///< fraction of the total gap that remains with all named effects
     double names = 1.0;      ///< number of effects named
-    /// Difference of its sizes between fits to the two halves of the windows, relative to their mean; 1 where
-    /// the time did not suffice to fit the halves apart.
+    /// Difference of the effect's sizes between fits to the two halves of the windows, relative to their
+    /// mean; 1 if the time did not suffice to fit the halves separately.
     double halves_apart = 0.0;
     /// Whether a size is at a bound, or a shape at the largest value that is tried.
     bool is_at_bound = false;
     /// Whether a signal that determines the effect stays off its floor.
     bool leaves_something = false;
-    /// Whether residual analysis finds on what the errors depend that remain in such a signal.
+    /// Whether residual analysis finds a quantity on which the remaining errors of such a signal depend.
     bool leaves_dependence = false;
-    /// Of an effect of the camera, of what it sees, or of the encoder's reading: whether residual analysis
-    /// without names finds that the whole gap depends on one quantity alone, which accuses a block of camera
-    /// or plate that is not named.
+    /// For an effect of the camera, of what it sees, or of the encoder's reading: whether residual analysis
+    /// of the whole gap, without any named effect, finds a single quantity on which it depends, and thereby a
+    /// block of camera or plate to which no named effect belongs.
     bool is_contested = false;
 };
 
@@ -98,7 +98,8 @@ struct TriedEffect {
     std::string effect, block;
     double probability;  ///< of the effect's being present, 0 to 1
     double gap_removed;  ///< fraction of the gap that it alone removes
-    /// Whether it would show in these recordings at its typical size; if not, nothing is said of it.
+    /// Whether the effect would show in these recordings at its typical size; if not, they give no
+    /// information on it.
     bool would_show = true;
 };
 
@@ -123,7 +124,8 @@ struct Equation {
     std::optional<double> gap_removed_of_kinds_left_out = {};
     std::string text;              ///< in words
     plant::EffectSetting setting;  ///< the formula as an effect, ready to be simulated
-    /// The formula explains the whole gap in place of the named effects, as it predicts better than they do.
+    /// Whether the formula explains the whole gap in place of the named effects, because it predicts better
+    /// than they do.
     bool in_place_of_names = false;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What recordings of a rig say about a hypothesis: how far its predictions are from what was measured.
+// The comparison of recordings with a hypothesis on their rig: the errors of its predictions.
 //
 // The signal chain is cut where something was measured. Every stretch between two cuts is fed with what was
 // recorded at its entrance and predicts what was recorded at its exit, so that an error of one stretch does
@@ -37,7 +37,8 @@ struct Rig;
 
 namespace fidservo::gap {
 
-/// What is predicted and compared; the top of gap/evidence.h says from what.
+/// The signals that are predicted and compared; the inputs of each prediction are listed at the top of this
+/// file.
 enum class Signal : std::uint8_t {
     encoder,        ///< the carriage's reading
     hall,           ///< the platform's reading
@@ -87,8 +88,8 @@ struct Window {
 /// Prediction minus recording, in floors, window after window; NaN where a value does not count (such as that
 /// of a tag that the plate does not have).
 ///
-/// Encoder: while the reading is constant, every place that rounds to it is as good as any other, so that the
-/// error is what exceeds half a count. A recording at rest thus has errors below its floor.
+/// Encoder: while the reading is constant, all positions that round to it are equally good, so that only the
+/// part of the error beyond half a count counts. A recording at rest thus has errors below its floor.
 ///
 /// Tags: the eight corner coordinates of a detection are transformed such that the first value lies along the
 /// stage's motion in the image and the other seven do not change with that motion (gap/links/tag_link.h). The

@@ -65,10 +65,11 @@ void check(const Rig& rig, const Recording& recording);
 /// Estimates the noise of all sensors from all recordings, and sets the floors by it.
 void find_noise(Evidence::Parts& parts);
 
-/// Evaluates how tags look in all recordings, and estimates the shutter from that.
+/// Evaluates the appearance of the tags in all recordings, and estimates the camera's exposure and readout
+/// times from it.
 void find_looks(Evidence::Parts& parts);
 
-/// Prepares the Hall readings of all recordings, and finds out what is known of the wire's initial state in
+/// Prepares the Hall readings of all recordings, and determines what is known of the wire's initial state in
 /// each.
 void find_wires(Evidence::Parts& parts);
 

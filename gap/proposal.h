@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The equation of a diagnosis: in place of its named effects for the whole gap, or in addition to them.
+// Proposes an equation: for the whole gap, in place of the named effects, or for what remains, in addition to
+// them.
 #include "gap/diagnose.h"
 #include "gap/search/selection.h"
 

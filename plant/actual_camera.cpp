@@ -16,7 +16,8 @@ void set_rotation(CameraGeometry& camera, const Eigen::Quaterniond& turn) {
     camera.tilt_rad = tilt.angle() * tilt.axis().head<2>();
 }
 
-/// d.
+/// The displacement d of plant/camera.h, mm: by how much the tilt displaces the point that the camera looks
+/// at, in the camera's frame before the tilt.
 Eigen::Vector3d aside_mm(const CameraDeviation& deviation, double distance_mm) {
     const double angle = deviation.tilt_rad.norm();
     if (angle == 0.0) return Eigen::Vector3d::Zero();

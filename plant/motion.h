@@ -154,8 +154,8 @@ class Motion {
         return whole_s > 0.0 && std::abs(duration_s - whole_s) < rounding_s;
     }
 
-    /// Whether forces are linear there: bristles slide, a patch is out of reach, and creeping friction slides
-    /// or is absent.
+    /// Whether all forces are linear in the state at `x`: dry friction is constant (bristles fully bent, or
+    /// none and faster than creep) or absent, and no patch of raised friction is in reach.
     bool is_straight(const State& x) const {
         const Friction& friction = p_.friction;
         return (!axis_.has_bristles || (bend_ == direction_ && friction.coasting_V == 0.0)) &&

@@ -42,7 +42,7 @@ struct GivenArray {
     std::optional<pybind11::array_t<bool>> mask;  ///< true where a value is missing; empty: nowhere
 };
 
-/// Throws TypeError "NAME: ...", one line, on what NumPy makes no array of.
+/// Converts an object to an array. Throws TypeError "NAME: ...", one line, if NumPy cannot.
 GivenArray array_of(const std::string& name, const pybind11::object& given);
 /// The name of an object's type.
 std::string type_name(pybind11::handle given);

@@ -26,7 +26,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// What is said of how a diagnosis goes.
+/// A progress report of a running diagnosis.
 struct Told {
     std::string what;
     double share;
@@ -54,7 +54,7 @@ class Errand {
         told_ = Told{std::string(what), share};
     }
 
-    /// What was told last and has not been asked for.
+    /// The latest progress report, unless it has been returned already.
     std::optional<Told> news() {
         const std::lock_guard lock(mutex_);
         return std::exchange(told_, std::nullopt);
@@ -82,7 +82,8 @@ class Errand {
     std::jthread thread_;  ///< last: it uses the others
 };
 
-/// In Python's own thread: signals are heard, and progress is told, until the errand is done.
+/// Waits for the errand in Python's thread, handling Python's signals and passing progress reports on. Throws
+/// what a signal handler or `progress` raises.
 void look_after(Errand& errand, const std::optional<py::function>& progress) {
     constexpr std::chrono::milliseconds period{50};
     for (bool is_done = false; !is_done;) {
@@ -91,7 +92,7 @@ void look_after(Errand& errand, const std::optional<py::function>& progress) {
             is_done = errand.is_done_within(period);
         }
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        // Also what was told just before the end, which a short errand comes to within one period.
+        // Also after the end: an errand shorter than one period has its only report still waiting then.
         if (const auto told = errand.news(); told && progress) (*progress)(told->what, told->share);
     }
 }

@@ -21,7 +21,7 @@ bool is_in_image(const CameraGeometry& image, const Eigen::Vector2d& point_px) {
     return from_edge.minCoeff() >= 0.0 && from_edge.x() < image.width_px && from_edge.y() < image.height_px;
 }
 
-/// Direction in which a plate point is seen, before the lens bends it: tangents to the axis.
+/// Ray from the camera to a plate point before lens distortion: x/z and y/z, with z along the optical axis.
 Eigen::Vector2d direction_of(const CameraModel& model, const Eigen::Vector2d& plate_mm, double s_mm) {
     const CameraDepartures& askew = model.departures;
     const Eigen::Vector2d from_s_mm(plate_mm.x() - s_mm, plate_mm.y());

@@ -122,7 +122,7 @@ struct HysteresisDepartures {
     /// Further rise per mm^2 of the contraction's square, as from a hardening spring.
     double stress_shift_degC_per_mm2 = 0.0;
     double stroke = 1.0;  ///< factor on the contraction
-    /// Fraction of the factor's excess over 1 that is lost per mm of contraction.
+    /// Decrease, per mm of contraction, of the difference `stroke` - 1, as a fraction of it.
     double stroke_fading_per_mm = 0.0;
 };
 

@@ -18,7 +18,8 @@ double on_branch(const DuhemLaw& law, const std::vector<double>& branch_mm, doub
     return branch_mm[left] + share * (branch_mm[left + 1] - branch_mm[left]);
 }
 
-/// What remains of `left_mm` to an end while the branch goes from `from_mm` to `to_mm` away from that end.
+/// The distance from the contraction to the end of the loop after a move: it shrinks by the same factor as
+/// that of the loop's branch, which goes from `from_mm` to `to_mm`.
 double remaining_mm(double left_mm, double from_mm, double to_mm) {
     return from_mm > 0.0 ? left_mm * to_mm / from_mm : left_mm;
 }

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double probe_s = 1e-5;  ///< over which the camera's speed is taken
 
-/// Runs what acts within the first `way_s` of a tick in equal sub-steps: step(volts, length in s).
+/// Simulates the first `way_s` seconds of a tick in sub-steps of equal length while a command is held. Calls
+/// step(command in V, sub-step's length in s) for each.
 template <class Step>
 void run(const RigModel& model, const std::array<HeldCommand, 2>& commands, double way_s, const Step& step) {
     const double longest_s = model.tick_s / model.substeps;

@@ -17,7 +17,8 @@ namespace {
 
 constexpr int cells = 8;
 constexpr double paper = 0.9, ink = 0.1, white = 255.0;
-/// Of the lamp that every rig has, the centre of the image at 1.
+/// The nominal rig's illumination, relative to the image's centre: slopes along u and v from the centre to
+/// the edge of the image, and the fraction by which the corners are darker.
 constexpr double lamp_u = 0.08, lamp_v = -0.03, lamp_corners = 0.06;
 
 using Shares = Eigen::Matrix<double, Eigen::Dynamic, cells>;

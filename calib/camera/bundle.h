@@ -50,8 +50,8 @@ class Bundle {
     /// The covariance of all adjusted quantities; empty if the Jacobian is rank deficient.
     std::optional<BundleCovariance> covariance(BundleState state, const LensFlags& fitted) const;
 
-    /// Excludes tags that fit badly and includes again those that no longer do; returns whether that changed
-    /// anything.
+    /// Excludes tags that fit badly and includes excluded tags again that now fit well. Returns whether that
+    /// changed anything.
     bool sort_out(const BundleState& state);
 
     /// Measured minus modelled corners of a tag, px.

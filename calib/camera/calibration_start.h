@@ -15,19 +15,19 @@ namespace fidservo::calib {
 CameraGeometry plain_lens(const CameraCalibrationOptions& options, double focal_px);
 
 /// Candidate lenses to start from. For plumb_bob: one whose focal length follows from the constraints on
-/// homographies, which distortion can spoil, and one with the focal length and the barrel distortion of the
-/// best equidistant lens. For either model: the focal length with the least rough_error_px(), in steps of a
-/// quarter from that at which the outermost corner would be seen straight behind the camera (an equidistant
-/// lens's pictures of a plane are no homographies).
+/// homographies, which fails with strong distortion, and one with the focal length and the barrel distortion
+/// of the best equidistant lens. For either model: the focal length with the least rough_error_px(), searched
+/// in steps of a quarter, starting from that at which the ray to the outermost corner would point straight
+/// backwards (the images of a plane by an equidistant lens are no homographies).
 std::vector<CameraGeometry> start_lenses(const CameraCalibrationOptions& options,
                                          const std::vector<TargetView>& views);
 
-/// Median distance, px, of the corners from where the poses by plane_pose() put them; infinite if a view has
-/// no pose.
+/// Median distance, px, between the corners and their predicted places with the poses by plane_pose();
+/// infinite if a view has no pose.
 double rough_error_px(const CameraGeometry& lens, const std::vector<TargetView>& views);
 
-/// The views' poses for a lens. Of the two poses that look alike from afar the better one is taken. Fails
-/// with Reason::not_identifiable.
+/// The views' poses for a lens. Of the two mirrored poses of a plane, which look alike from afar, the one
+/// that explains the view better is taken. Fails with Reason::not_identifiable.
 Result<BundleState> start_camera(const CameraGeometry& lens, const std::vector<TargetView>& views,
                                  const Bundle& bundle);
 

@@ -31,10 +31,10 @@ struct CalibrationLimits {
     int least_views = 5;            ///< number of views that differ from each other
 };
 
-/// What is wrong with a calibration, one sentence each, the cause of a bad fit first; none: the calibration
-/// is good. A cause is named only if it was tried (other_explanations.h) and explains the corners; advice is
-/// given only if its benefit was computed (predicted_errors.h). Where the lens does not explain the corners,
-/// its numbers are not judged.
+/// The faults of a calibration, one sentence each, the cause of a bad fit first; empty if the calibration is
+/// good. A cause is named only if a calibration with it (other_explanations.h) explains the corners; advice
+/// is given only if its benefit was computed (predicted_errors.h). If the lens does not explain the corners,
+/// its parameters are not judged.
 /// @param target  all tags of the target
 std::vector<std::string> shortcomings(const CameraCalibration& calibration, const CalibrationLimits& limits,
                                       const std::vector<PlateTag>& target);

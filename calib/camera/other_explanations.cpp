@@ -59,7 +59,8 @@ double perspective_error_px(const CameraGeometry& plain, const std::vector<Targe
     return errors_px.empty() ? std::numeric_limits<double>::infinity() : median_of(errors_px);
 }
 
-/// Of a fisheye some focal lengths will do, where the descriptions of a target are compared.
+/// The least rough error, px, of an equidistant lens over a coarse grid of focal lengths, which suffices to
+/// compare descriptions of a target.
 double fisheye_error_px(const CameraCalibrationOptions& options, const std::vector<TargetView>& views) {
     constexpr double step = 1.5;
     const double width_px = std::max(options.width_px, options.height_px);

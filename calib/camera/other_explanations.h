@@ -14,21 +14,23 @@ namespace fidservo::calib {
 LensModel other_model(LensModel model);
 
 /// Whether `other` explains the corners significantly better than `asked`, both being calibrations of the
-/// same views: over the corners that both use, it gains more than all numbers of a lens together could gain
-/// in one case of a thousand if the model of `asked` were true.
+/// same views: over the corners that both use, its chi^2 is lower by more than additional lens parameters
+/// would lower it by chance in one of a thousand cases if the model of `asked` were true.
 bool explains_better(const CameraCalibration& other, const CameraCalibration& asked);
 
-/// Includes in the standard errors of the lens that the other lens model may be right. Where that model
-/// explains the corners nearly as well, the numbers that both models have (focal length, principal point,
-/// ratio) may have its values. With d the difference to its numbers and w its probability, from the odds
-/// exp((chi^2 of the lens - chi^2 of the other) / 2), the covariance grows by w d d^T. Source: Buckland,
-/// Burnham, Augustin, Model selection: an integral part of inference, Biometrics 53(2), 1997.
+/// Adds to the lens's covariance the possibility that the other lens model is right. If that model explains
+/// the corners nearly as well, the parameters that both models have (focal length, principal point, ratio)
+/// may have its values. With d the difference of these parameters between the models and w the other model's
+/// probability, from the odds exp((chi^2 of the lens - chi^2 of the other) / 2), w d d^T is added to the
+/// covariance. Source: Buckland, Burnham, Augustin, Model selection: an integral part of inference,
+/// Biometrics 53(2), 1997.
 void count_other_model(CameraCalibration& calibration);
 
 /// The calibration of the same views with a given lens model. Empty: there is no solution.
 std::optional<CameraCalibration> with_model(const CameraCalibration& asked, LensModel model);
 
-/// The same with the tags' size fitted as well: `tag_scale` is the fitted size relative to the stated one.
+/// The calibration with a given lens model and the size of the tags fitted, too: `tag_scale` is the fitted
+/// size relative to the stated one.
 std::optional<CameraCalibration> with_free_tag_scale(const CameraCalibration& asked, LensModel model);
 
 /// The calibration with the tags' size fitted as well, but kept near the stated size.
@@ -51,7 +53,7 @@ struct WithoutView {
     CameraCalibration calibration;
 };
 
-/// The calibration without the view whose corners are explained worst. Empty where two views at most would
+/// The calibration without the view whose corners are explained worst. Empty if at most two views would
 /// remain.
 std::optional<WithoutView> without_worst_view(const CameraCalibration& asked, LensModel model);
 

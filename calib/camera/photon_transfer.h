@@ -40,9 +40,9 @@ struct PhotonTransfer {
 /// neighbouring pixels between the averages of the even and of the odd frames of a burst, 6 spread^2 mean^2;
 /// temporal noise and a linear gradient of the light drop out. Source: Janesick, Photon Transfer, SPIE Press
 /// 2007, ch. 5; EMVA Standard 1288, rel. 4.0, sec. 6.
-/// @param bursts  CV_8UC1, each of two frames or more Fails with Reason::not_identifiable if there are too
-/// few pixels away from edges, or if the grey levels differ too little to separate the line's slope from its
-/// intercept.
+/// @param bursts  frames CV_8UC1, at least two in each burst
+/// @return fails with Reason::not_identifiable if there are too few pixels away from edges, or if the grey
+/// levels differ too little to separate the line's slope from its intercept
 Result<PhotonTransfer> measure_noise(const std::vector<std::vector<cv::Mat>>& bursts);
 
 }  // namespace fidservo::calib

@@ -9,8 +9,8 @@
 //
 //     c_k + B(p_k) argmin_h sum_i w_i |B(p_i) h - d(p_i)|^2
 //
-// c_k: where the pinhole camera sees corner k; B: the eight directions in which a perspective picture can
-// change: 1, x, y for each coordinate, (x x, x y), (x y, y y). Source of the latter: Hartley, Zisserman,
+// with c_k the image of corner k by the pinhole camera, and B the eight directions in which a perspective
+// picture can change: 1, x, y for each coordinate, (x x, x y), (x y, y y). Source of B: Hartley, Zisserman,
 // Multiple View Geometry, 2nd ed., 2004, ch. 2.4.
 #include "core/camera/camera_geometry.h"
 #include "core/plate.h"

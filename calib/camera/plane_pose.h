@@ -30,9 +30,9 @@ std::optional<Eigen::Matrix3d> target_homography(const CameraGeometry& lens, con
 /// 2000, sec. 3.1.
 PlanePose pose_of_homography(const CameraGeometry& lens, const Eigen::Matrix3d& homography);
 
-/// A start value for the pose of a view with a given lens: by its homography; for an equidistant lens by the
-/// same transform of its rays, r x H (X, Y, 1) = 0, which may come from behind the camera's centre. Empty if
-/// the corners do not determine it, or the lens images no ray at one of them.
+/// A start value for the pose of a view with a given lens: from its homography. For an equidistant lens,
+/// whose rays r may come from behind the camera's centre, the same transform is applied to the rays, r x H
+/// (X, Y, 1) = 0. Empty if the corners do not determine the pose, or if the lens has no ray at one of them.
 std::optional<PlanePose> plane_pose(const CameraGeometry& lens, const TargetView& view);
 
 /// The camera at a pose: rotation_rad, tilt_rad and distance_mm follow from the pose, the rest from the lens.

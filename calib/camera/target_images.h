@@ -22,8 +22,8 @@ struct TargetImage {
     std::vector<TagDetection> found;  ///< the detector's tags
 };
 
-/// The target's tags in an image, refined; tags that cannot be refined, that the target does not have, or
-/// that are there twice are left out. Tags too small for a refinement are taken as they were detected.
+/// The target's tags in an image, refined. Tags that cannot be refined, that are not on the target, or that
+/// appear twice are left out; tags that are too small for a refinement keep the detected corners.
 TargetView view_of(const TargetImage& image, const std::vector<PlateTag>& target,
                    const vision::RefinementOptions& options);
 

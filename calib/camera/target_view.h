@@ -25,8 +25,8 @@ struct TargetView {
 };
 
 /// Weights of a tag's corners: W with W C W^T = I in the directions in which the covariance C is finite. A
-/// tag refined with a calibrated camera has four of them (place, rotation, scale); along the other directions
-/// nothing was measured, and W is zero there.
+/// tag that was refined with a calibrated camera has four such directions (position, rotation, scale); in the
+/// other four nothing was measured, and W is zero.
 struct CornerWeights {
     Eigen::Matrix<double, 8, 8> whiten;  ///< rows beyond the rank are zero
     int rank;                            ///< number of rows that count

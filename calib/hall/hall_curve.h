@@ -4,9 +4,10 @@
 //
 //     V = mid + span s (1 + cubic (1 - s^2)),    s = (x - centre) / half_range
 //
-// is a general increasing cubic that flattens towards both sides, written about its point of inflection: four
-// numbers. half_range, where the span is stated, is a convention and taken from the rig file. The cubic
-// polynomial is fitted, and turned into the four numbers:  V = p0 + p1 x + p2 x^2 + p3 x^3,
+// is a general increasing cubic that flattens towards both sides, written about its point of inflection, with
+// four parameters. half_range, the distance from the centre at which the voltage differs from mid by the
+// span, is a convention and taken from the rig file. The cubic polynomial is fitted, and turned into the four
+// numbers: V = p0 + p1 x + p2 x^2 + p3 x^3,
 //
 //     centre = -p2 / (3 p3),   a = p1 - p2^2 / (3 p3),   span = a h + p3 h^3,   cubic = -p3 h^3 / span
 #include "core/hall.h"
@@ -28,8 +29,8 @@ struct HallSample {
 struct HallCurve {
     HallParameters hall;           ///< the curve
     double mid_std_V, span_std_V;  ///< standard errors of the voltages, V
-    /// Standard errors of centre and cubic, which only data over the whole S determine. Without such data
-    /// both are those of the nominal curve, and `refused` says why.
+    /// Standard errors of centre and cubic, which are determined only by data over the whole S-shaped curve.
+    /// Without such data centre and cubic are those of the nominal curve, and `refused` says why.
     double centre_std_mm, cubic_std;
     std::optional<Failure> refused;  ///< why centre and cubic are nominal; empty if the data determine them
     double residual_lsb;             ///< r.m.s. of reading minus curve
@@ -42,10 +43,12 @@ struct HallCurve {
 };
 
 /// Least squares over the readings; standard errors allow for the residuals' autocorrelation.
-/// @param nominal        half range and converter; the curve where the data do not determine it
-/// @param travel_low_mm  ends of the travel, in the references' frame, on which the curve will be used Fails
-/// with Reason::not_identifiable if not even mid and span are determined: fewer than 20 usable samples,
-/// references over less than a twentieth of the travel, readings that do not rise with them.
+/// @param nominal  gives half range and converter, and those parameters that the data do not determine
+/// @param travel_low_mm, travel_high_mm  range of displacements, in the frame of the reference, in which the
+/// curve will be used
+/// @return fails with Reason::not_identifiable if not even mid and span are determined: fewer than 20 usable
+/// samples, a range of displacements below a twentieth of the travel, or readings that do not rise with the
+/// displacement
 Result<HallCurve> fit_hall_curve(const HallParameters& nominal, std::span<const HallSample> samples,
                                  double travel_low_mm, double travel_high_mm);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The Hall sensor against the camera: while the platform moves over its travel, both see the same
-// displacement.
+// Calibrates the Hall sensor by the camera: both measure the displacement of the platform while it moves over
+// its travel.
 //
 // With d(t) the position by the rig file's Hall curve, relative to its centre, and s_i the camera's position
 // stamped t_i,

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The resolution of an encoder, from places where the carriage stood at rest, which the camera measured far
-// more precisely than the encoder.
+// The resolution of an encoder, from positions of the carriage at rest that the camera measured far more
+// precisely than the encoder does.
 //
-// A count c at the place y says c - 1/2 <= u y + v <= c + 1/2 with u = 1 / resolution and v = -zero u, up to
-// the noise of y (rounding_likelihood.h). The values (u, v) that are compatible with n stands form a polygon
-// that shrinks with 1 / n, not with 1 / sqrt(n), so that least squares would be worse. The estimate is the
-// mean of the posterior under a flat prior, its standard errors are the posterior's standard deviations, both
-// by numerical integration, widened where places accumulate at the edges of their counts, as with a drive
-// that stops as soon as a count is reached.
+// A count c at the position y means c - 1/2 <= u y + v <= c + 1/2 with u = 1 / resolution and v = -zero u, up
+// to the noise of y (rounding_likelihood.h). The values (u, v) that are compatible with n stands form a
+// polygon that shrinks with 1 / n, not with 1 / sqrt(n), so that least squares would be worse. The estimate
+// is the mean of the posterior under a flat prior, its standard errors are the posterior's standard
+// deviations, both by numerical integration. They are widened if the positions accumulate at the edges of
+// their counts, as those of a drive do that stops as soon as a count is reached.
 
 #include "core/result.h"
 

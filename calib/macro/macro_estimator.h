@@ -4,9 +4,9 @@
 // window under the recorded commands, from an initial state that is fitted too, and its counts are compared
 // with the recorded ones.
 //
-// Nothing is differentiated and no reading is fed back, so neither rounding nor a closed loop biases the fit,
-// as both do a regression of accelerations on recorded velocities. Windows keep model errors from
-// accumulating, as they would without bound behind an integrator.
+// Readings are neither differentiated nor used as inputs, so that neither rounding nor a closed loop biases
+// the fit; both bias a regression of accelerations on recorded velocities. Because of the windows, model
+// errors do not accumulate without bound in the integrator.
 #include "calib/batch_variance.h"
 #include "calib/macro/macro_motion.h"
 #include "calib/macro/macro_trace.h"
@@ -61,8 +61,8 @@ class MacroEstimator {
     /// @param resolution_mm  of the encoder
     MacroEstimator(std::vector<MacroWindow> windows, double resolution_mm);
 
-    /// The model with every window's initial state at its first recorded position, at the velocity of its
-    /// first ticks.
+    /// A point with this model. The initial state of each window is its first recorded position and the mean
+    /// velocity of its first ticks.
     MacroPoint start_at(const MacroMotion& motion) const;
 
     /// Negative log likelihood, with priors so wide (ten times the range of the data) that they have no

@@ -19,8 +19,9 @@ MacroFigures figures_of(const MacroMotion& motion, double unit_V, double thresho
 /// Derivatives of the figures by the parameters, central differences.
 MacroFigureGradient figure_gradient(const MacroMotion& motion, double unit_V, double threshold_V);
 
-/// The standard errors above which a figure is useless: a fifth of gain, time constant and slope; a fifth of
-/// 1 V for the effective voltage at the threshold; for friction and offset a fifth of the driving command.
+/// The standard errors above which a figure is refused as useless: a fifth of its value for gain, time
+/// constant and slope; 0.2 V for the effective voltage at the threshold; a fifth of the driving command for
+/// friction and offset.
 MacroFigures largest_useful_std(const MacroFigures& value, double fastest_mm_per_s, double drive_V);
 
 }  // namespace fidservo::calib

@@ -260,7 +260,7 @@ MacroFit fit_macro_windows(const MacroEstimator& estimator, const MacroBuild& bu
     fit.both_ways = drives_both_ways(estimator.windows(), fit.point.motion);
     fit.active[macro_index::offset] = fit.both_ways;
     const auto [reversals, coasted_s] = manoeuvres(estimator, fit.point.motion);
-    // One speed tells the drive less friction, and no more.
+    // Motion at one constant speed determines only the difference of drive and friction, not each of them.
     fit.active[macro_index::friction] = reversals > 0 || coasted_s > 0.0 || build.dead_zone ||
                                         !has_one_amplitude(estimator.windows(), fit.point.motion);
     if (!fit.active[macro_index::friction]) fit.point.motion.friction_mm_per_s = 0.0;

@@ -19,8 +19,9 @@ struct MacroFit {
     ThresholdInterval forward, backward;
     MacroInfluences influences;
     bool both_ways = false;  ///< the carriage was driven to both sides
-    /// The carriage was driven to one side only, by more than the command: the fitted offset has friction
-    /// subtracted from it, and friction is not fitted itself.
+    /// The carriage was driven to one side only, and faster than the command alone explains. Offset and
+    /// friction cannot be separated then: the fitted offset is offset minus friction, and friction is not
+    /// fitted.
     bool offset_less_friction = false;
     /// The value of friction (mm/s) or offset (V) before it was removed from the fit, and the model with it.
     struct Dropped {
@@ -40,9 +41,9 @@ std::vector<MacroWindow> macro_windows(std::span<const MacroTrace> traces, const
 /// Fails with Reason::not_identifiable where nothing can be fitted: no window, no command, or no motion.
 Status check_macro_windows(const std::vector<MacroWindow>& windows, double resolution_mm);
 
-/// By how much the loss may exceed its minimum at values that are compatible with the data: 2 for a
-/// likelihood of independent errors, more in proportion as the likelihood understates the parameters'
-/// variance (Kent, Robust properties of likelihood ratio tests, Biometrika 69(1), 1982).
+/// Parameter values are compatible with the data if their loss exceeds the minimum by at most this. It is 2
+/// for a likelihood of independent errors, and larger by the factor by which the likelihood understates the
+/// parameters' variance (Kent, Robust properties of likelihood ratio tests, Biometrika 69(1), 1982).
 double loss_allowance(const MacroFit& fit);
 
 /// Standard deviation of one parameter.
@@ -51,8 +52,8 @@ double parameter_std(const MacroFit& fit, int index);
 /// Mean absolute value of the commands that drive the carriage.
 double mean_drive_V(const std::vector<MacroWindow>& windows, const MacroMotion& motion);
 
-/// Fits parameters and noise alternately, from a start point, until neither changes any more; the thresholds
-/// stay.
+/// Fits parameters and noise level alternately, from a start point, until neither changes any more; the
+/// thresholds keep their values.
 void refine_with_noise(const MacroEstimator& estimator, MacroPoint& point, const MacroActive& active);
 
 /// Fits all windows. Friction and offset are removed from the fit (set to zero) where their standard errors

@@ -36,9 +36,9 @@ struct MacroEstimate {
     /// Degrees of freedom of Student's distribution for intervals.
     double freedom = std::numeric_limits<double>::infinity();
 
-    /// Bound of the additional error from forces that the model lacks: the residual beyond noise taken as one
-    /// coherent error in the figure's direction (Cauchy-Schwarz inequality). 0 where there is no such
-    /// residual.
+    /// Bound of the additional error from forces that the model lacks, if the residual in excess of noise
+    /// were entirely an error in the direction of this figure (Cauchy-Schwarz inequality). 0 if there is no
+    /// such residual.
     double systematic = 0.0;
 
     /// Half the width of the 95 % confidence interval.
@@ -48,7 +48,7 @@ struct MacroEstimate {
 /// Two recordings whose estimates of a figure contradict each other.
 struct MacroContradiction {
     std::string figure;  ///< "gain", "time constant", ...
-    double apart;        ///< difference in its standard errors
+    double apart;        ///< difference of the two values, divided by its standard error
     /// The recordings with the lowest and with the highest value.
     std::string low_recording, high_recording;
     /// The estimates from these recordings.

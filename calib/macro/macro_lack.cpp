@@ -86,7 +86,8 @@ Eigen::Matrix<double, lack_columns, 1> forces_at(const MacroMotion& motion, cons
     return g;
 }
 
-/// How the place (counts) would follow each force.
+/// The change of the position, counts, by each of the tested forces: a row for each tick, a column for each
+/// force.
 Eigen::MatrixXd responses(const MacroEstimator& estimator, std::size_t w, const MacroPoint& point,
                           const Ranges& ranges) {
     constexpr double memory_ticks = 5.0;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Lack of fit of the macro stage's model: tests of the residuals for forces that it does not have.
+// Lack-of-fit tests of the macro stage's model: tests of its residuals for forces that the model does not
+// contain.
 //
-// Each force g (mm/s, as the drive's) would change the position by the solution of  tau dv/dt = g - v, dy/dt
-// = v in every window. Lagrange multiplier tests, robust to correlated errors: the scores of these columns,
-// made orthogonal to parameters and initial states and summed over batches of windows, are tested by
-// Hotelling's T^2 (Boos, On generalized score tests, The American Statistician 46(4), 1992).
+// A force g, expressed as a speed in mm/s like that of the drive, would change the position by the solution
+// of tau dv/dt = g - v, dy/dt = v in every window. Lagrange multiplier tests, robust to correlated errors:
+// the scores of these columns, made orthogonal to parameters and initial states and summed over batches of
+// windows, are tested by Hotelling's T^2 (Boos, On generalized score tests, The American Statistician 46(4),
+// 1992).
 #include "calib/macro/macro_fit.h"
 
 #include <string>
@@ -17,7 +19,7 @@ struct MacroLack {
     std::string depends_on;  ///< what the force depends on, in words
     double probability;      ///< p-value: probability of such scores without the force
     double share;            ///< fraction of the residual's sum of squares that it would remove
-    MacroVector shift;       ///< change of the parameters if the model had it
+    MacroVector shift;       ///< change of the fitted parameters if the model contained it
 };
 
 struct MacroLacks {
@@ -30,9 +32,10 @@ struct MacroLacks {
 
 MacroLacks lacks_of(const MacroEstimator& estimator, const MacroFit& fit);
 
-/// Variance of a figure's changes, weighted by the fractions of the residual that the forces would remove:
-/// the uncertainty from not knowing the right model (Buckland, Burnham, Augustin, Model selection: an
-/// integral part of inference, Biometrics 53(2), 1997).
+/// Mean square change of a figure of the model, over the models that would each have one of the missing
+/// forces, weighted by MacroLack::share: the variance that comes from not knowing the right model (Buckland,
+/// Burnham, Augustin, Model selection: an integral part of inference, Biometrics 53(2), 1997).
+/// @param gradient  of the figure, with respect to the parameters
 double shift_variance(const std::vector<MacroLack>& lacks, const MacroVector& gradient);
 
 }  // namespace fidservo::calib

@@ -8,9 +8,9 @@
 //
 // S is the speed, in mm/s, that the drive would hold at c volts without friction, B its slope, b a constant
 // force in volts, C = K F the speed lost to Coulomb friction. At rest the carriage stays there while |KV| <=
-// C. A rig without dead zone has S = c = 0 and both thresholds 0, which leaves KV = B (u + b). The parameters
-// are speeds instead of (K, a0, delta) because the data determine each of them separately: none depends on
-// the threshold, which is known only to lie between two command levels.
+// C. A rig without dead zone has S = c = 0 and both thresholds 0, which leaves KV = B (u + b). Speeds are
+// used as parameters instead of (K, a0, delta), because the data determine each of them separately: none
+// depends on the threshold, which is only known to lie between two command levels.
 
 namespace fidservo::calib {
 

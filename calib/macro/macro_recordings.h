@@ -23,8 +23,8 @@ std::array<MacroAgreement, macro_figure_count> macro_agreement(const MacroEstima
                                                                const MacroFit& fit, double unit_V,
                                                                double threshold_V);
 
-/// Correction for the correlation of neighbouring third differences of white noise: so many of their squares
-/// are worth one independent square for the variance; 1 + 2 (15^2 + 6^2 + 1) / 20^2.
+/// Neighbouring third differences of white noise are correlated: for an estimate of the variance, this number
+/// of their squares is worth one independent square. It is 1 + 2 (15^2 + 6^2 + 1) / 20^2.
 inline constexpr double third_differences_correlated = 2.31;
 
 /// The fraction of the force that the model misses, measured by its double integral so that neither rounding

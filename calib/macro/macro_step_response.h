@@ -11,11 +11,12 @@
 
 namespace fidservo::calib {
 
-/// Threshold from commands that rise in steps: half way between the largest command under which the carriage
-/// stayed and the smallest under which it left, with the standard error of a uniform distribution between
-/// them.
-/// @param side  +1 for commands to the right, -1 to the left Fails with Reason::not_identifiable if nothing
-/// moved it or no smaller command was tried.
+/// Threshold from commands that rise in steps: half way between the largest command at which the carriage
+/// stayed at rest and the smallest at which it moved, with the standard deviation of a uniform distribution
+/// between them.
+/// @param side  +1 for commands to the right, -1 to the left
+/// @return fails with Reason::not_identifiable if no command moved the carriage or no smaller command was
+/// tried
 Result<MacroEstimate> threshold_from_rising_steps(const MacroTrace& trace, double resolution_mm, double side);
 
 /// Y/V = b / ((z - 1)(z - p)), eq. (6), with Y in counts and V the effective voltage.
@@ -31,15 +32,15 @@ struct StepModel {
 ///
 ///     y[k] - y[0] = p (y[k-1] - y[0]) + b sum_{i<k} V'[i] + c,     V'[k] = beta V[k] + (1 - beta) V[k-1]
 ///
-/// The sum does not amplify the counts' rounding, as differences would, but the rounding is also in the
-/// regressor y[k-1] and would bias plain least squares. So instrumental variables are used that are free of
-/// it: the model's own response with p and b of the iteration before, until these converge (Young's refined
-/// instrumental variable, Automatica 17(6), 1981). V' distributes the held command over the two samples as
-/// the continuous-time axis does, beta = (1 - (1 - p) tau/T) / (1 - p) of the exact numerator: eq. (6) lumps
-/// it into one sample, which taken literally would put half a tick into tau.
-/// @param volts  effective voltage at each tick, 0 before the step: the compensated command Fails with
-/// Reason::not_identifiable if the trace has less than 20 ticks of motion or the iteration does not converge
-/// to a pole in (0, 1).
+/// The sum does not amplify the counts' rounding, as differences would, but the regressor y[k-1] contains the
+/// rounding, too, which would bias ordinary least squares. Therefore instrumental variables without rounding
+/// are used: the model's response with p and b of the previous iteration, until these converge (Young's
+/// refined instrumental variable, Automatica 17(6), 1981). V' distributes the held command over two samples
+/// as the exact discretisation of the continuous axis does, beta = (1 - (1 - p) tau/T) / (1 - p). Eq. (6) has
+/// a single sample instead, which taken literally would change tau by half a tick.
+/// @param volts  effective voltage (the compensated command) at each tick, 0 before the step
+/// @return fails with Reason::not_identifiable if the trace has less than 20 ticks of motion or the iteration
+/// does not converge to a pole in (0, 1)
 Result<StepModel> step_model(const MacroTrace& trace, std::span<const double> volts, double resolution_mm);
 
 /// One step: its command and its terminal speed in mm/s.

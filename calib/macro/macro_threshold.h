@@ -17,16 +17,16 @@ struct ThresholdInterval {
     double std_V() const;  ///< standard deviation of a uniform distribution over the interval
 };
 
-/// The threshold from motions that start at rest: between the largest command that was held for 25 ms without
-/// a change of count, and the smallest that had been reached at the first count of a motion. A start value,
-/// from readings alone.
+/// The threshold from motions that start at rest: it lies between the largest command that was held for 25 ms
+/// without a change of count and the smallest command at which a motion's first change of count occurred. A
+/// start value, which needs no model.
 /// @param side  +1 for commands to the right, -1 to the left
 ThresholdInterval threshold_from_rest(const std::vector<MacroWindow>& windows, double resolution_mm,
                                       double side);
 
 /// Moves both thresholds among the command levels to the maximum of the likelihood. The active parameters are
 /// refitted for every trial, as speeds, initial states and thresholds can compensate for each other. Trials
-/// move one threshold or both, by many levels at first and by one at last.
+/// move one threshold or both, by many command levels at first and finally by one.
 void search_thresholds(const MacroEstimator& estimator, MacroPoint& point, const MacroActive& active);
 
 /// The interval of commands for one direction's threshold: where the loss, with everything else refitted,

@@ -31,9 +31,9 @@ struct Travel {
 };
 
 /// Which ticks of a trace the model of a free carriage applies to. Excluded are times at an end stop, until
-/// the carriage leaves it: within two counts of an end of travel, or stopped from more than a count per tick
-/// at once, for 20 ms or longer, under no less a command than had moved it (an end stop elsewhere, or an
-/// encoder of unknown origin).
+/// the carriage leaves it: the carriage is within two counts of an end of travel, or it stopped abruptly from
+/// more than a count per tick and stands for 20 ms or longer although the command is at least as large as
+/// before (an end stop elsewhere, or an encoder of unknown origin).
 std::vector<bool> free_ticks(const MacroTrace& trace, double resolution_mm, const Travel& travel);
 
 /// A piece of a trace, with an initial state of its own.

@@ -36,9 +36,9 @@ struct CameraMount {
 ///
 /// (core/camera/camera_geometry.h; a is the given camera's axis_rad). No stage is needed: the positions of
 /// the views need not be known. Covariances are from the Jacobian, times the misfit where that is above 1.
-/// @param lens  intrinsics, distortion and axis count as exact; rotation, tilt and distance are ignored Fails
-/// with Reason::not_identifiable if there are no two tags in any view, if tags coincide or the views do not
-/// determine the mount, Reason::no_convergence if the iteration does not end.
+/// @param lens  its intrinsics, distortion and axis count as exact; rotation, tilt and distance are ignored
+/// @return fails with Reason::not_identifiable if no view has two tags, if tags coincide or the views do not
+/// determine the mount; with Reason::no_convergence if the iteration does not converge
 Result<CameraMount> fit_camera_mount(const CameraGeometry& lens, const std::vector<TargetView>& views);
 
 }  // namespace fidservo::calib

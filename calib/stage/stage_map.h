@@ -9,9 +9,9 @@
 //
 // weighted least squares (Gauss-Newton, the s_i eliminated) gives distance, rotation and tilt of the camera
 // against the plate, the direction of the stage's axis in the plate's frame, the first radial coefficient of
-// the lens and the lateral offset y, all at once with their covariance. Distance and focal length act as one
-// (their ratio is the scale), so the rig file's focal length is kept. The scale is that of the plate's pitch:
-// no encoder enters.
+// the lens and the lateral offset y, all at once with their covariance. Distance and focal length cannot be
+// separated (their ratio is the scale); therefore the rig file's focal length is kept. The scale follows from
+// the pitch of the tags on the plate; the encoder is not used.
 #include "core/camera/camera_covariance.h"
 #include "core/camera/camera_geometry.h"
 #include "core/plate.h"
@@ -82,9 +82,10 @@ struct StageMap {
     double image_axis_std_rad() const;
 };
 
-/// @param nominal  intrinsics, and a start value for k1 Fails with Reason::not_identifiable if the views are
-/// too few or too similar (fewer than 4 views, tags over less than a tenth of the image's width, motion over
-/// less than a tenth of it), with Reason::no_convergence if the iteration does not end.
+/// @param nominal  gives the intrinsics, and a start value for k1
+/// @return fails with Reason::not_identifiable if the views are too few or too similar (fewer than 4 views,
+/// tags over less than a tenth of the image's width, motion over less than a tenth of it); with
+/// Reason::no_convergence if the iteration does not converge
 Result<StageMap> fit_stage_map(const CameraGeometry& nominal, std::span<const StageView> views);
 
 /// A view that was not used in the fit, compared with the map.

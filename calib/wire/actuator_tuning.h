@@ -16,7 +16,8 @@ struct ActuatorTuning {
 };
 
 /// Least squares over ambient temperature, stroke scale, heater gain and both time constants, each within
-/// bounds around the rig file's values, the wire starting at room temperature and fully extended.
+/// bounds around the rig file's value. The wire must start at room temperature, with the platform fully
+/// extended.
 /// @param position_mm  platform position at each tick
 /// @param command_V    command held from each tick on
 /// Fails with Reason::not_identifiable if the platform travelled less than half its stroke.

@@ -21,9 +21,9 @@ struct HeaterRun {
     std::optional<double> start_degC = {};  ///< temperature at the first row; empty: ambient
 };
 
-/// Indices, ascending, of samples that cannot have come from a drive: isolated, at most two rows long, and
-/// farther from the median of the surrounding eleven rows than three tenths of the commands' usual range and
-/// than three times those rows' spread.
+/// Ascending indices of corrupt command samples: isolated outliers of at most two rows that differ from the
+/// median of the surrounding eleven rows by more than 0.3 times the commands' usual range and by more than
+/// three times the spread of these rows.
 std::vector<std::size_t> corrupt_samples(std::span<const double> command);
 
 /// The commands with some samples replaced by the last good one before them.

@@ -26,8 +26,9 @@ using HeaterFree = std::array<bool, heater_numbers>;
 struct HeaterScale {
     HeaterParameters start;
     double command_range;
-    /// There is no rig file: the onset is not below the start's, the third parameter is heating tau over
-    /// cooling tau, and gain and cooling tau cannot be held fixed, as there are no values for them.
+    /// Whether the heater is fitted without a rig file. The onset is then at least the start value's, the
+    /// third parameter is the ratio of heating tau to cooling tau, and gain and cooling tau cannot be held
+    /// fixed, since no values for them are known.
     bool by_itself = false;
 
     HeaterParameters at(const double* x) const {
@@ -60,7 +61,7 @@ class HeaterResiduals {
 
     int count() const { return count_; }
 
-    /// A function of x that is held at a value, by an additional residual at the end.
+    /// A function of x that is held near a value by an additional residual, the last one.
     struct Pin {
         std::function<double(const HeaterVector&)> figure;
         double value, std;

@@ -42,7 +42,7 @@ double smallest_step(std::span<const double> values);
 /// within 1 %.
 std::size_t first_known_memory(std::span<const double> input);
 
-/// Integrated autocorrelation of residuals in samples, >= 1: n correlated samples are worth n / this many
+/// Integrated autocorrelation L of residuals, in samples, at least 1: n correlated samples are worth n / L
 /// independent ones.
 double correlation_length(std::span<const double> residual);
 

@@ -5,10 +5,10 @@
 //     output = offset + direction f,     minimise  |output - offset - direction A w|^2 + penalty |D w|^2,  w
 //     >= 0
 //
-// A: share of each cell that the input has switched on (calib/wire/preisach_grid.h); D: differences of
-// neighbouring cells, which smooth the density where the data do not determine it. The penalty is chosen by
-// cross-validation over ten stretches of the data, which are held out in turn. Input and output may have any
-// unit; the names of FodTable say degC and mm.
+// with w the weights of the cells, A the fraction of each cell that the input has switched on
+// (calib/wire/preisach_grid.h), and D the differences of neighbouring cells, which smooth the density where
+// the data do not determine it. The penalty is chosen by cross-validation over ten stretches of the data,
+// which are held out in turn. Input and output may have any unit; the names of FodTable say degC and mm.
 #include "calib/wire/preisach_data.h"
 #include "calib/wire/preisach_grid.h"
 #include "core/result.h"
@@ -50,8 +50,8 @@ struct PreisachFit {
     double least_reversal;  ///< size below which reversals of the input were ignored, in its unit
 };
 
-/// Fails with Reason::not_identifiable on data that are too short, not finite, do not move, or never reach an
-/// end of their range after which the memory is known.
+/// Fails with Reason::not_identifiable if the data are too short, not finite or constant, or if the input
+/// never comes to an end of its range, from which on the hysteresis memory is known.
 Result<PreisachFit> fit_preisach(const HysteresisTrace& trace, const PreisachFitOptions& options = {});
 
 /// The model's output for an input that starts from the same state as in the fit.

@@ -58,7 +58,7 @@ void SwitchedCells::shares(std::span<double> per_cell) const {
     add(memory_.last_peak_degC, valley, memory_.temp_degC, per_cell);
 }
 
-/// The relays that switch off between `from` and `to`, and on below `peak`.
+/// Adds the fraction of each cell with relays that switch off between `from` and `to` and on below `peak`.
 void SwitchedCells::add(double peak, double from, double to, std::span<double> per_cell) const {
     if (to <= grid_.low || to <= from) return;
     const std::size_t last_q = cell_below(grid_, to), last_p = cell_below(grid_, peak);

@@ -8,8 +8,9 @@
 //     f(t_i, t_j) = sum over p < i, q < j of w_pq,        w_pq >= 0,  q <= p
 //
 // w_pq is distributed uniformly over the cell [t_p, t_p+1] x [t_q, t_q+1]; on the diagonal, where the table
-// is linear in its lower triangle, it lies on the line a = b: relays without hysteresis, the reversible part.
-// The model's output is then linear in the weights: the sum of w_pq times the share of the cell that is on.
+// is linear in the lower triangle of a cell, it lies on the line a = b: these are relays without hysteresis,
+// the reversible part. The model's output is then linear in the weights: the sum of w_pq times the share of
+// the cell that is on.
 #include "core/preisach.h"
 
 #include <cstddef>

@@ -41,13 +41,13 @@ class PreisachMoments {
     mutable std::vector<double> pending_;
 };
 
-/// The roughness matrix D^T D of differences between neighbouring cells, n x n row by row. Off the diagonal
-/// of the Preisach plane cells have neighbours in either direction, on the diagonal along it. It is scaled to
-/// a mean of one on its own diagonal.
+/// The roughness matrix D^T D of differences between neighbouring cells, n x n row by row. Cells off the
+/// diagonal of the Preisach plane have neighbours in both directions, cells on the diagonal only along it.
+/// The matrix is scaled such that its diagonal elements have the mean 1.
 std::vector<double> roughness(const PreisachGrid& grid);
 
-/// The information matrix with the roughness penalty added, which is relative to the mean information of a
-/// cell. A ridge of 1e-9 keeps cells that never switched at zero.
+/// The information matrix with the roughness penalty added; the penalty is relative to the mean information
+/// of a cell. A ridge of 1e-9 gives cells that never switched the weight 0.
 std::vector<double> penalised_matrix(const PreisachMoments& moments, std::span<const double> rough,
                                      double penalty);
 
@@ -56,9 +56,9 @@ Result<std::vector<double>> fit_density(const PreisachMoments& moments, std::spa
                                         double penalty);
 
 /// Standard errors of the table's nodes (lower triangle, row by row) for residuals of a given variance. They
-/// are those of the unconstrained fit with a zero-mean prior on each cell, as wide as the typical weight of
-/// the cells that have any. Penalty and non-negativity are not used: what only they determine counts as
-/// unknown.
+/// are those of an unconstrained fit with a zero-mean prior for each cell, whose standard deviation is the
+/// typical weight of the cells with non-zero weight. Penalty and non-negativity are not used, so that nodes
+/// that only these determine have large errors.
 std::vector<double> node_standard_errors(const PreisachGrid& grid, const PreisachMoments& moments,
                                          std::span<const double> weights, double variance);
 

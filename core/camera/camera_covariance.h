@@ -54,8 +54,8 @@ std::vector<double> lower_triangle(const CameraCovariance& matrix);
 /// The symmetric matrix that has this lower triangle.
 CameraCovariance from_lower_triangle(std::span<const double, camera_triangle_numbers> numbers);
 
-/// J = d d / d p: two rows for the vector's plate x and y, a column for each of the numbers p; mm per mm, per
-/// rad or per unit of k1.
+/// J = d d / d p. Its rows are the plate x and y of the vector d, its columns the numbers p; in mm per mm,
+/// per rad or per unit of k1.
 using VectorByCamera = Eigen::Matrix<double, 2, camera_numbers>;
 /// J of the vector on the plate between two points of an image, seen from position s.
 VectorByCamera vector_by_camera(const CameraGeometry& camera, const Eigen::Vector2d& from_px,

@@ -30,7 +30,8 @@ bool pictures_once(const CameraGeometry& camera, const Eigen::Vector2d& image_px
     return true;
 }
 
-/// Whether the lens's picture reaches the side of the image that is nearest to the principal point.
+/// Whether the lens model still has a ray for an image point as far from the principal point as the nearest
+/// side of the image is.
 bool reaches_a_side(const CameraGeometry& camera) {
     const Eigen::Vector2d low = pictured_at(camera, {-0.5, -0.5});
     const Eigen::Vector2d high = pictured_at(camera, {camera.width_px - 0.5, camera.height_px - 0.5});

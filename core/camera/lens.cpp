@@ -86,7 +86,8 @@ double angle_nearby(const LensDistortion& lens, double pictured) {
     return theta_rad;
 }
 
-/// theta of theta_d within the domain.
+/// The angle theta, rad, within the lens's domain whose distorted angle theta_d is `pictured`; empty if there
+/// is none.
 std::optional<double> angle_of(const LensDistortion& lens, double pictured) {
     constexpr double rounding = 1e-14;
     const auto fits = [&](double theta_rad) {

@@ -6,9 +6,10 @@
 
 namespace fidservo::gap {
 
-/// Fits effects' settings, in addition to a base hypothesis, to the balance of forces, with residuals
-/// over ForceBalance::deviations standard deviations under the settings themselves. Its arguments must
-/// outlive it.
+/// Fits settings of effects, in addition to a base hypothesis, to the balance of forces. A residual is a
+/// support's excess force (gap/balance/force_balance.h) in units of ForceBalance::deviations standard
+/// deviations, which are computed for the settings that are tried. The constructor's arguments must outlive
+/// the object.
 class BalanceFit {
   public:
     /// @param wanted  the windows to be used, as in gap/fit/score.h

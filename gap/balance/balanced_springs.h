@@ -11,9 +11,9 @@ namespace fidservo::gap {
 /// Whether an effect is a spring: a force in proportion to the position on the rail.
 bool is_spring(const plant::Effect& effect);
 
-/// The best settings of a spring without its optional parameters, and with one of them. Both are needed:
-/// where stick-slip makes a carriage move in jumps, a fit does not get by gradients from a linear spring to
-/// one that hardens.
+/// The settings of a spring that balance the forces best: without its optional parameters, and with one of
+/// them. Both are needed as start values of simulations: with stick-slip, a gradient-based fit does not get
+/// from a linear spring to a hardening one.
 /// @param wanted  windows of the encoder to be used
 /// @param base    the known effects
 /// @param candidate  a spring; for other effects the result is empty

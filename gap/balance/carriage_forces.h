@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The force that the prediction of a carriage lacks, from the prediction's errors, without simulating the
-// carriage again.
+// The difference between the true force on a carriage and the force in its prediction, from the prediction's
+// errors, without another simulation.
 //
-// Prediction and truth obey tau dv/dt + v = K f, dy/dt = v with forces f in V that differ. Times a modulating
-// function phi that vanishes with its derivatives at the ends of a short support, integrated by parts, the
-// error e = prediction - reading gives the mean difference of the forces there,
+// Prediction and truth obey tau dv/dt + v = K f, dy/dt = v with forces f in V that differ. Multiply the
+// difference of the two equations by a modulating function phi, which vanishes with its derivatives at the
+// ends of a short support, and integrate by parts: the error e = prediction - reading, mm, gives the mean
+// difference of the forces over the support,
 //
 //     int phi (f_predicted - f) dt = int (tau phi'' - phi') e dt / K,
 //
 // with no derivative of a reading and no state at the support's start (Shinbrot 1957; "weak form"). The
-// result is local: where a carriage was predicted to stop and moved on, the position is wrong for the rest of
-// a window, but a force is lacking only where the carriage moved on. Supports in which the carriage stands
-// are left out, as friction balances any force there.
+// result is local: if a carriage was predicted to stop but moved on, the position is wrong for the rest of
+// the window, the force only at the place of the predicted stop. Supports in which the carriage stands are
+// left out, as friction balances any force there.
 #include "gap/evidence.h"
 #include "gap/fit/regression.h"
 
@@ -52,22 +53,24 @@ class CarriageForces {
     CarriageForces(const Evidence& evidence, const Errors& errors, std::size_t half_support,
                    double edge_V = usual_edge_V);
 
-    /// The mean force that is lacking in each support, over its standard deviation from the readings' noise
-    /// floor.
+    /// The mean of f_predicted - f over each support, weighted by phi, in units of its standard deviation,
+    /// which follows from the readings' noise floor.
     const Errors& lacking() const { return lacking_; }
 
-    /// For each of Evidence::windows(), the window with the range of its supports, which may be empty, in
-    /// place of that of its rows.
+    /// Evidence::windows(), with the range of each window's supports in lacking() instead of that of its
+    /// rows; it may be empty.
     const std::vector<Window>& windows() const { return windows_; }
 
-    /// The same as lacking() for a given force in V, which the prediction has and the recording lacks.
+    /// The values that lacking() would have if prediction and recording differed by a given force in V, which
+    /// acts in the prediction only.
     Column of_force(int group, const std::function<double(const SlidingRow&)>& force_V) const;
 
-    /// The same for a given error of the reading, mm, which the prediction has and the recording lacks.
+    /// The values that lacking() would have if prediction and recording differed by a given error of the
+    /// reading in mm, which the prediction has only.
     Column of_reading(int group, const std::function<double(const SlidingRow&)>& error_mm) const;
 
-    /// The mean velocity and acceleration of each support, in mm/s and mm/s^2 over the same standard
-    /// deviation, from unsmoothed positions by integration by parts.
+    /// The mean velocity, mm/s, and acceleration, mm/s^2, over each support, divided by the standard
+    /// deviation of lacking(); from unsmoothed positions by integration by parts.
     Column mean_velocity(const std::function<double(const SlidingRow&)>& position_mm) const {
         return column(0, of_velocity_, position_mm);
     }
@@ -75,8 +78,8 @@ class CarriageForces {
         return column(0, of_acceleration_, position_mm);
     }
 
-    /// The standard deviation of a force that is the sum of mean acceleration and velocity times these
-    /// factors, from the readings' noise floor, relative to that with the rig file's factors.
+    /// The standard deviation, caused by the readings' noise floor, of the force (V_per_mm_per_s2 mean
+    /// acceleration + V_per_mm_per_s mean velocity), relative to that with the rig file's factors.
     double deviation_of(double V_per_mm_per_s2, double V_per_mm_per_s) const;
 
     /// The values of a quantity in all rows.
@@ -104,8 +107,8 @@ class CarriageForces {
     Errors lacking_;
 };
 
-/// For each support, 1 / sqrt(n + sum of squares) over the n supports of its window, which weights windows as
-/// in gap/fit/score.h.
+/// For each support, the weight 1 / sqrt(n + sum of squares of `values`), both over the n supports of its
+/// window. This weights windows as the loss in gap/fit/score.h does.
 /// @param windows  of CarriageForces::windows()
 /// @param values  one for each support
 std::vector<double> support_weights(std::span<const Window> windows, const Errors& values);

@@ -5,15 +5,15 @@
 //
 //     V(w(u, y)) - F(v, y) - (tau dv/dt + v) / K = 0
 //
-// and where a belt pulls the carriage (plant/transmission.h), with a motor whose motion follows from V and
-// that of the carriage,
+// or, if a belt pulls the carriage (plant/transmission.h; the motor's motion follows from V and the
+// carriage's motion),
 //
 //     q / K - F(v, y) - (1 - m) tau dv/dt / K = 0
 //
 // holds for the true forces, with position and velocity from the readings, as a mean over short supports
-// (gap/balance/carriage_forces.h). Forces enter linearly: those of two causes add up, and fits have no local
-// minima as simulations have where stick-slip makes a carriage move in jumps. Play, the bend of bristles, and
-// effects that show only at rest are not detected.
+// (gap/balance/carriage_forces.h). Forces enter linearly, so that those of several causes add up. Stick-slip,
+// which makes the loss of simulations discontinuous, causes no local minima here. Play, the deflection of
+// bristles, and effects that show only at rest are not detected.
 #include "gap/balance/carriage_forces.h"
 #include "plant/stage_plant.h"
 
@@ -23,24 +23,27 @@ namespace fidservo::gap {
 
 class ForceBalance {
   public:
-    /// Excess forces are given in units of this many standard deviations, so that rounding has little weight.
+    /// Excess forces are given in units of this many standard deviations, so that noise and rounding have
+    /// little weight.
     static constexpr double deviations = 2.5;
 
     /// @param wanted  windows of the encoder to be used
-    /// @param known  of its effects, those on the encoder's reading give the positions from readings
+    /// @param known  a hypothesis whose effects on the encoder's reading are used to convert readings to
+    /// positions
     /// @param half_support  as in CarriageForces
     ForceBalance(const Evidence& evidence, const Wanted& wanted, const Hypothesis& known,
                  std::size_t half_support = short_half_support);
 
-    /// The force in excess in each support, over `deviations` standard deviations from the readings' noise
-    /// floor under the rig file.
+    /// The excess force of a hypothesis, the left side of the balance above, in each support. Unit:
+    /// `deviations` standard deviations, which follow from the readings' noise floor and the rig file's
+    /// parameters.
     Errors excess(const Hypothesis& hypothesis) const;
 
-    /// The same over `deviations` standard deviations under the hypothesis, whose moving mass multiplies the
-    /// noise of the acceleration.
+    /// excess() with standard deviations that follow from the hypothesis's parameters: its moving mass
+    /// multiplies the noise of the acceleration.
     Errors excess_in_own_deviations(const Hypothesis& hypothesis) const;
 
-    /// Length of the rail, mm, on which the carriage slides.
+    /// Length of the range of positions, mm, in which the carriage slides.
     double way_mm() const;
 
     /// How many supports there are.
@@ -58,7 +61,7 @@ class ForceBalance {
     std::vector<std::vector<double>> readings_mm_;  ///< for each run
 };
 
-/// Whether an effect changes the forces on the carriage, and not only their delay or transmission.
+/// Whether an effect changes the forces on the carriage. Effects that only delay or transmit forces do not.
 bool shows_in_balance(const plant::Effect& effect);
 
 }  // namespace fidservo::gap

@@ -6,10 +6,11 @@
 // A candidate at a point of its grid is a group of columns: the change of the excess in all supports
 // (gap/balance/force_balance.h) for a small fraction of each of its typical sizes. The next group added is
 // the one that reduces the residual most, in squares weighted by 1 / (1 + (r / s)^2), with s twice the median
-// residual or the noise. Groups are added as long as the prediction with sizes fitted on the other half of
-// the data has a likelihood ratio above n / alpha, of n groups. For data without such an effect the
-// expectation of the likelihood ratio is 1, so that it exceeds n / alpha with a probability of at most alpha
-// / n (Markov).
+// residual or the noise. Groups are added as long as the next one passes a test on the other half of the
+// data: the likelihood ratio there, with the sizes fitted on the first half, must exceed n / alpha, with n
+// the number of groups and alpha the significance level. For data without the effect the expectation of the
+// likelihood ratio is 1, so that it exceeds n / alpha with a probability of at most alpha / n (Markov's
+// inequality).
 #include "gap/balance/force_balance.h"
 #include "gap/candidates/candidate.h"
 
@@ -24,16 +25,17 @@ struct BalancedModel {
     Hypothesis settings;  ///< the setting of each candidate
 };
 
-/// Whether what an effect does to a carriage at a row follows from that row alone, as for a force. The effect
-/// of a belt or a delay depends on earlier rows, and fits of it would absorb noise of the readings.
+/// Whether a candidate's influence on the carriage at a row depends on that row alone, as that of a force
+/// does. The influence of a belt or a delay depends on earlier rows; fitted to the balance, it would absorb
+/// noise of the readings.
 bool is_force(const Rig& rig, const Candidate& candidate);
 
 /// The models of one effect, of two, and so on, refined by the balance on one half of the data
 /// (gap/balance/balance_fit.h).
-/// @param halves  of every window (gap/evidence/halves.h); the first one is fitted
+/// @param halves  the half to which each window belongs (gap/evidence/halves.h); the first half is fitted
 /// @param base    the known effects
-/// @param candidates  tried are those that are forces and not in the base, one of each class
-/// @param tail  probability of adding any effect where there is none
+/// @param candidates  of these, the forces that are not in the base are tried, one of each class
+/// @param tail  significance level alpha: probability of adding any effect if there is none
 std::vector<BalancedModel> balanced_models(const Evidence& evidence, std::span<const std::uint8_t> halves,
                                            const Hypothesis& base,
                                            std::span<const Candidate* const> candidates, double tail);

@@ -16,12 +16,13 @@ struct Wave {
     double amplitude = 0.0, phase_rad = 0.0;
 };
 
-/// A period, and the waves of it that explain most of the errors: one of a force along the rail, and one of
-/// the reading itself. They have the opposite sign of what the prediction lacks.
+/// A period, and the two waves of this period that explain most of the errors: a force along the rail, and an
+/// error of the reading. They are what the prediction lacks: their sign is that of recording minus
+/// prediction.
 struct PositionPeriod {
     double period_mm = 0.0;
     double share = 0.0;  ///< fraction of the weighted squares that they explain, 0 .. 1
-    /// Half support for which it is strongest, rows (gap/balance/carriage_forces.h).
+    /// The half support, in rows, with which the period is strongest (gap/balance/carriage_forces.h).
     std::size_t half_support = 0;
     Wave force_V{}, reading_mm{};
 };
@@ -30,8 +31,8 @@ struct PositionPeriod {
 /// weighted as in gap/fit/score.h; once from forces over 25 rows, in which a carriage at 100 mm/s covers half
 /// a wave of 5 mm, and once over 51 rows, which detect weaker forces.
 /// @param errors  of the encoder are used where they are not NaN
-/// @return the four strongest of each, strongest first, none within two steps of the search from a stronger
-/// one
+/// @return the four strongest periods of each search, strongest first, without those within two grid steps of
+/// a stronger one
 std::vector<PositionPeriod> strongest_periods(const Evidence& evidence, const Errors& errors);
 
 }  // namespace fidservo::gap

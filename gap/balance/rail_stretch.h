@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The stretch of its rail on which a carriage has slid most, where position-dependent effects are searched
-// for.
+// The part of the rail on which the carriage has slid most. Position-dependent effects are searched for in
+// this part only.
 //
-// A motor that turns continuously covers so long a way that as many places and periods would have to be tried
-// as there are rows; any part of the way shows what depends on the position.
+// A motor that turns continuously covers so long a range of positions that far too many places and periods
+// would have to be tried; effects that depend on the position show in any part of the range.
 #include "gap/balance/carriage_forces.h"
 
 #include <span>
@@ -19,8 +19,8 @@ struct RailStretch {
     }
 };
 
-/// The whole range of the rows' positions up to 400 mm, which is eight of the longest periods searched for;
-/// of a longer range the 400 mm with the most rows. Demands at least one row.
+/// The range of the rows' positions if it is at most 400 mm long (eight of the longest periods searched for),
+/// otherwise the 400 mm with the most rows. Requires at least one row.
 RailStretch most_visited(std::span<const SlidingRow> rows);
 
 }  // namespace fidservo::gap

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which detections tell a tag's position reliably.
+// Selects the detections that give a tag's position reliably.
 #include "core/recording.h"
 
 #include <set>
@@ -20,15 +20,15 @@ using TagsInFrames = std::set<std::pair<TimeNs, int>>;
 /// refined are not judged.
 bool refines_corners(const Recording& recording);
 
-/// Tags that look smeared in one direction, by motion or anything else, by more than w = 0.15 cells: the
-/// variances of their edges differ by more than w^2 / 12, or some but not all edges are too wide to be
+/// Tags whose images are smeared in one direction, by motion or anything else, over more than w = 0.15 cells:
+/// the variances of their edges differ by more than w^2 / 12, or some but not all edges are too wide to be
 /// measured.
 TagsInFrames smeared_tags(const Recording& recording);
 
-/// Removes the detections that tell a tag's position badly:
+/// Removes the detections whose tag positions are unreliable:
 /// - those whose tag moves by more than 0.15 cells during the exposure, by the carriage's velocity (one value
-///   for each row), by its positions in the neighbouring frames, or by its look (`smeared`);
-/// - where frames were measured, those whose tag is missing in the frame before or after;
+///   for each row), by its positions in the neighbouring frames, or by its appearance (`smeared`);
+/// - if frames were measured, those whose tag is missing in the frame before or after;
 /// - those nearer than half a cell to the image's border, which may cut the tag;
 /// - in a recording that refines corners, those that could not be refined.
 void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_s, const Rig& rig,

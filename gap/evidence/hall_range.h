@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The range of readings in which a Hall sensor tells the platform's position.
+// The range of readings in which a Hall sensor measures the platform's position.
 //
 // A converter saturates at 0 and at its highest value; an amplifier in front of it may saturate earlier. The
-// reading is then constant, which a noisy reading otherwise is for moments only: with noise of r.m.s. sigma
+// reading is then constant, whereas a noisy reading is constant only for a moment: with noise of r.m.s. sigma
 // LSB a reading repeats with a probability of at most p = erf(1 / (2 sqrt(2) sigma)), so that n equal
-// readings in a row, with p^n < 1e-9, are no chance.
+// readings in a row with p^n < 1e-9 are evidence of saturation.
 #include "core/hall.h"
 #include "core/recording.h"
 
@@ -13,7 +13,7 @@
 
 namespace fidservo::gap {
 
-/// The readings at which the sensor saturates, in LSB; they tell no position.
+/// The readings at which the sensor saturates, LSB; they contain no information on the position.
 struct HallRange {
     double low_adc = 0.0, high_adc = 4095.0;
 };

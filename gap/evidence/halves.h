@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which windows are fitted, and which are judged.
+// The division of the windows into two halves for cross-validation.
 #include "gap/evidence.h"
 
 #include <cstdint>
@@ -10,18 +10,18 @@
 namespace fidservo::gap {
 
 /// The half (0 or 1) to which each window belongs: hypotheses are fitted to one half and judged on the other,
-/// both ways. The runs of an experiment that contain a signal are assigned to the halves alternately; where
-/// only one run contains it, stretches of four windows are.
+/// both ways. The recordings of one kind of experiment that contain a signal are assigned to the halves
+/// alternately; if only one recording contains it, groups of four consecutive windows are.
 std::vector<std::uint8_t> halves(const Evidence& evidence);
 
-/// The halves if stretches of four windows alternate in every run: for parameters that have a value of their
-/// own in each run.
+/// The halves if groups of four consecutive windows alternate within every recording: for parameters with a
+/// separate value for each recording.
 std::vector<std::uint8_t> halves_of_each_run(const Evidence& evidence);
 
-/// The eligible windows from which a fit learns most, of each signal at most `most`. One half of them covers
-/// all sizes of error above the median, since the largest errors are beyond what a fit can follow at first;
-/// the other half is evenly spread in time.
-/// @param mean_squares  of all windows under what is known already; NaN: has no values
+/// The eligible windows that are most informative for a fit, at most `most` of each signal. One half of them
+/// covers all sizes of error above the median, since the largest errors are beyond what a fit can follow at
+/// first; the other half is evenly spread in time.
+/// @param mean_squares  of all windows under the present explanation; NaN: window without values
 Wanted instructive(std::span<const Window> windows, const Wanted& eligible,
                    std::span<const double> mean_squares, std::size_t most);
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The noise of sensors, estimated from stretches in which nothing happens.
+// The noise of sensors, estimated from stretches in which their input is constant.
 //
 // A reading with noise of standard deviation s about a mean m, rounded to steps of 1, has a variance V(m, s)
 // that depends on where m lies between two steps; on average over a step it is s^2 + 1/12. Since a stage
-// usually rests at one place, that average would mislead. Therefore s is chosen such that the variances V of
-// all stretches add up to those observed:
+// usually rests at one place, this average does not apply. Therefore s is chosen such that the variances V of
+// all stretches add up to the observed ones:
 //
 //     sum over stretches of  (sum of squares) - (rows - 2) V(mean, s) = 0
 //

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Errors of the windows that count, without the rows of all others: much less to keep for each parameter.
+// Errors of the counted windows without the rows of all others, which saves memory when derivatives are
+// stored for each parameter.
 #include "gap/evidence.h"
 
 #include <span>
@@ -8,7 +9,7 @@
 
 namespace fidservo::gap {
 
-/// The counted ones of some windows, with their errors one after the other.
+/// Selects the counted windows and stores their errors one after the other.
 class CountedRows {
   public:
     /// @param counted  one flag for each window
@@ -20,11 +21,11 @@ class CountedRows {
     /// The number of rows of the counted windows.
     std::size_t size() const { return rows_; }
 
-    /// The errors of the counted windows; empty for errors of a hypothesis that the plant refused.
+    /// The errors of the counted windows; empty if the simulator rejected the hypothesis.
     /// @param errors  of all windows
     Errors of(const Errors& errors) const;
 
-    /// Of flags of all windows those of the counted ones.
+    /// The flags of the counted windows, from those of all windows.
     Wanted flags_of(const Wanted& flags) const;
 
   private:

@@ -20,18 +20,18 @@ struct CrossFit {
     /// S_w of every window (gap/fit/score.h), predicted by the fit to the half without it.
     std::vector<double> mean_squares;
     double loss = 0.0;  ///< total loss of all windows
-    /// Both halves have the values of one of them, as the time for fitting them apart was over.
+    /// Whether both halves have the values of one of them, because there was no time to fit them separately.
     bool is_of_one_half = false;
 };
 
-/// Each signal's mean square error over that expected under the truth, minus 1; 0 where this ratio is at most
-/// 1.1, which is 5 % in r.m.s.
+/// Each signal's mean square error, divided by that expected of the true model, minus 1; 0 if this ratio is
+/// at most 1.1, which is 5 % in r.m.s.
 using SignalExcess = std::array<double, signal_count>;
 
 class CrossFitter {
   public:
     /// @param windows  the largest number of windows of one signal and one half that are fitted
-    /// @param stop  asked before every prediction; once it returns true, predictions are empty and results
+    /// @param stop  called before every prediction; once it returns true, predictions are empty and results
     /// meaningless
     CrossFitter(const Evidence& evidence, std::size_t windows, std::function<bool()> stop);
 

@@ -26,12 +26,12 @@ struct Fit {
     Eigen::MatrixXd curvature_covariance = {};
 };
 
-/// Steps of numerical derivatives, in scales of a parameter. Of effects that move the carriage the usual step
-/// is larger than the scatter from stick-slip. The close step serves near the optimum, where the usual one
-/// would leave the small range of values that predict the carriage's readings, rounded to counts, equally
-/// well. What other effects do is smooth: their step is the root of the relative rounding of errors, which
-/// makes rounding and curvature count alike (Nocedal, Wright, Numerical Optimization, 2nd ed., 2006,
-/// ch. 8.1).
+/// Steps of numerical derivatives, in scales of a parameter. For effects that move the carriage, the usual
+/// step is large enough that its effect exceeds the scatter from stick-slip. The close step is for the
+/// neighbourhood of the optimum, where the usual step would exceed the small range of values that predict the
+/// rounded counts equally well. The errors depend smoothly on all other effects: their step is the square
+/// root of the relative rounding error, which makes the errors by rounding and by curvature equal (Nocedal,
+/// Wright, Numerical Optimization, 2nd ed., 2006, ch. 8.1).
 inline constexpr double usual_step = 0.01, close_step = 0.001, smooth_step = 3.45e-4;
 
 struct FitOptions {

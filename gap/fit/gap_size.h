@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How large a gap is, and how much of it an explanation removes.
+// The size of a gap, and the fraction of it that an explanation removes.
 //
-// Of a signal, the gap is the r.m.s. error over all values of held-out windows, divided by its floor. Of a
-// rig, it is the r.m.s. of the signals' gaps, where a signal below its floor (a carriage at rest within a
-// count) counts as at it. The part of a rig's gap that an explanation removes refers to the excess over the
-// floor:
+// The gap of a signal is the r.m.s. error over all values of held-out windows, divided by the signal's floor.
+// The gap of a rig is the r.m.s. of the signals' gaps, in which a signal below its floor (a carriage at rest
+// within a count) counts as 1. The part of a rig's gap that an explanation removes refers to the excess over
+// the floor:
 //
 //     removed = 1 - (after^2 - 1) / (before^2 - 1),  clipped to 0 .. 1
 #include "gap/candidates/coupling.h"
@@ -31,7 +31,7 @@ std::vector<SignalGap> signal_gaps(const Evidence& evidence, std::span<const dou
 /// Whether what remains of a signal's error is above its floor.
 bool is_left(const SignalGap& signal);
 
-/// Which signals have something left.
+/// The signals for which is_left() is true.
 SignalFlags signals_left(std::span<const SignalGap> signals);
 
 TotalGap total_gap(std::span<const SignalGap> signals);
@@ -41,9 +41,9 @@ TotalGap total_gap(std::span<const SignalGap> signals);
 std::pair<double, double> removed_interval(const Evidence& evidence, std::span<const double> before,
                                            std::span<const double> after);
 
-/// How far a signal's windows typically are from its floor, in floors: sqrt(exp(mean log(1 + S_w)) - 1), at
-/// least 1; 1 for signals without windows. By the logarithm, a window in which the carriage broke loose but
-/// should have stuck does not dominate.
+/// The typical error of each signal's windows, in floors: sqrt(exp(mean log(1 + S_w)) - 1), at least 1; 1 for
+/// signals without windows. Because of the logarithm, a single window in which the carriage broke loose in
+/// the recording but not in the prediction does not dominate.
 std::array<double, signal_count> typical_floors(std::span<const Window> windows,
                                                 std::span<const double> mean_squares);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How probable recordings are under an explanation that may be incomplete.
+// The probability density of recordings under an explanation that may be incomplete.
 //
 //     recording = simulator(rig file + effects) + discrepancy + noise
 //
@@ -12,10 +12,11 @@
 //     log p_w = -1/2 log v_w - 5/2 log(1 + S_w / (4 v_w)),   v_w = E_w + d_s^2
 //
 // d_s is estimated by maximum likelihood on one half of the windows (gap/evidence/halves.h) and judged on the
-// other. So an explanation that explains more needs less d_s and has the higher density; d_s = 0 is "no gap".
+// other. An explanation that explains more therefore needs a smaller d_s and has a higher density; d_s = 0
+// means that there is no gap.
 //
-// Noise is independent between windows, while a discrepancy is common to a recording: n windows of which it
-// makes up a share rho of the variance count as n / (1 + (n - 1) rho) independent ones.
+// Noise is independent between windows, while a discrepancy is common to a recording: n windows in which the
+// discrepancy is a fraction rho of the variance count as n / (1 + (n - 1) rho) independent ones.
 //
 // Source: Kennedy, O'Hagan, J. R. Stat. Soc. B 63, 2001; the number of independent values: Kish, Survey
 // Sampling, 1965, design effect of clusters; the law: Lange, Little, Taylor, J. Am. Stat. Assoc. 84, 1989.
@@ -27,10 +28,11 @@
 
 namespace fidservo::gap {
 
-/// d_s of each signal, floors; 0 where noise explains what is left, and of signals without windows.
+/// d_s of each signal, floors; 0 if noise explains the errors, and for signals without windows.
 using Discrepancy = std::array<double, signal_count>;
 
-/// By maximum likelihood over levels from 0.05 floors on that increase by 5 %; 0 if that is likelier.
+/// Maximum-likelihood estimate of d_s on a grid from 0.05 floors upwards in steps of 5 %, or 0 if that is
+/// more likely.
 /// @param mean_squares  S_w of all windows; NaN: not judged
 Discrepancy discrepancy_of(std::span<const Window> windows, std::span<const double> mean_squares);
 

@@ -47,9 +47,9 @@ class Regression {
 
     /// Forward selection of the groups that improve held-out predictions significantly, in the order of
     /// selection; of groups with about the same gain the one with the fewest columns is selected.
-    /// @param tail     probability of selecting any group where there is nothing
-    /// @param as_good  share of the best gain from which on gains count as the same, if the best one's lead
-    /// is not significant
+    /// @param tail  significance level: probability of selecting any group if the errors depend on none
+    /// @param as_good  gains above this fraction of the best gain count as equal to it, if the best one's
+    /// lead is not significant
     std::vector<int> significant_groups(double tail, double as_good) const;
 
     /// Coefficients of the columns of some groups, group after group in the given order: the mean of those

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How well predictions do, window by window, and whether one hypothesis does better than another.
+// The loss of predictions in each window, and the comparison of two hypotheses by their losses.
 //
 // A window w with the mean square error S_w, in floors squared, has the loss
 //
@@ -29,12 +29,12 @@ double total_loss(std::span<const double> mean_squares);
 /// Total loss of the counted windows; infinite for errors of a hypothesis that the plant refused.
 double total_loss(std::span<const Window> windows, const Wanted& counted, const Errors& errors);
 
-/// By how much errors lower the loss below that of a base's mean squares, in the counted windows that both
-/// predict; minus infinity if the plant refused their hypothesis.
+/// The loss that errors save compared with a base's mean squares, in the counted windows that both predict;
+/// minus infinity if the simulator rejected the hypothesis of the errors.
 double gained(std::span<const Window> windows, const Wanted& counted, std::span<const double> base_squares,
               const Errors& errors);
 
-/// The same for mean squares of both.
+/// gained() with the mean squares of both.
 double gained(const Wanted& counted, std::span<const double> base_squares, std::span<const double> squares);
 
 /// How a second hypothesis compares with a first one on the same windows.

@@ -23,10 +23,10 @@ struct KnownSlopes {
 Errors slope(const Predict& predict, const ScaledParameters& parameters, std::size_t k, const Errors& errors,
              double step_scales = usual_step);
 
-/// Moves known derivatives to other values of the same parameters, by Broyden's rank-one update. Leaves them
-/// as they are if they mispredict how the errors have changed.
+/// Updates known derivatives for other values of the same parameters, by Broyden's rank-one formula. Leaves
+/// them unchanged if they predict the change of the errors badly.
 /// @param errors  at the other values
-/// @return whether they were moved
+/// @return whether they were updated
 bool move_slopes(KnownSlopes& known, std::span<const double> values, const Errors& errors);
 
 }  // namespace fidservo::gap

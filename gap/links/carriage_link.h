@@ -2,13 +2,14 @@
 #pragma once
 // From the macro command to the encoder: the carriage along a recording, under a hypothesis.
 //
-// In each window the plant runs freely under the recorded commands. It enters the 100 ms before the window in
-// the state that the window before has carried there (delayed commands, play, bristles, belt), also through
-// an end of travel; where that window is not simulated, the counts tell what the mechanism remembers
-// (gap/links/counted_way.h). Position and velocity are corrected such that they fit these 100 ms best: each
-// count says that the carriage was within half a count of it, and the carried state is a weak prior.
-// Therefore a carriage at rest within its count stays where it was carried to, and rounding gives it no
-// velocity. The corrections dy and dv minimise the squares of what exceeds half a count in
+// In each window the plant runs freely under the recorded commands. The simulation begins 100 ms before the
+// window, in the state (delayed commands, play, bristles, belt) in which the simulation of the preceding
+// window has arrived there, also through an end of travel. If the preceding window is not simulated, the
+// state of play and bristles follows from the counts (gap/links/counted_way.h). Its position and velocity are
+// corrected such that they fit the counts of these 100 ms best. A count says only that the carriage was
+// within half a count of it, and the uncorrected state is a weak prior. A carriage at rest within its count
+// therefore keeps its simulated position, and rounding gives it no velocity. The corrections dy and dv
+// minimise the squares of what exceeds half a count in
 //
 //     e_k + dy + tau (1 - exp(-t_k / tau)) dv          e_k: prediction minus count at t_k, tau: time constant
 //
@@ -46,7 +47,7 @@ struct PredictedCounts {
 PredictedCounts predicted_counts(const CarriageModel& model, const CarriageRun& run,
                                  std::span<const std::uint8_t> wanted);
 
-/// Readings for all windows. Stores the path, too.
+/// The same for all windows; also stores the carriage's path.
 PredictedCounts predicted_counts(const CarriageModel& model, const CarriageRun& run, CarriagePath& path);
 
 }  // namespace fidservo::gap

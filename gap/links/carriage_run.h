@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The carriage's part of a recording, and the windows in which it can be compared with a model.
+// The carriage's data of a recording, and the windows in which they can be compared with a model.
 #include "core/macro_parameters.h"
 #include "core/recording.h"
 #include "gap/budget.h"
@@ -13,18 +13,19 @@
 
 namespace fidservo::gap {
 
-/// One value for each row, where nothing else is said.
+/// The carriage's data. Vectors have one value for each row of the recording unless stated otherwise.
 struct CarriageRun {
     double tick_s = 0.0;
-    std::shared_ptr<const Budget> budget;  ///< checked by what simulates along the recording; may be null
+    std::shared_ptr<const Budget> budget;  ///< checked by simulations of the recording; may be null
     std::vector<double> time_s;            ///< since the first row
     std::vector<double> command_V;         ///< NaN where missing
     std::vector<double> reading_count;  ///< NaN where missing; position / resolution where that was recorded
     CountedWay way;
     std::vector<std::vector<WindowRows>> windows;  ///< for each stretch; only where the carriage is free
-    std::vector<std::size_t> run_on_end;  ///< for each stretch, the row up to which commands go on after it
-    /// Whether, in the 50 ms before and after a row, the reading is constant or alternates between two
-    /// counts: a controller that sees counts keeps the carriage at the edge of one.
+    std::vector<std::size_t> run_on_end;  ///< for each stretch, end of the rows after it with known commands
+    /// Whether the carriage stands: in the 50 ms before and after a row, the reading is constant or
+    /// alternates between two counts, since feedback from counts holds the carriage at the border between
+    /// two.
     std::vector<bool> stands;
     bool is_homed = false;  ///< whether readings are positions in the rig file's travel
 };
@@ -41,11 +42,11 @@ std::vector<double> readings_mm(const Recording& recording, const MacroParameter
 /// @param is_homed  whether readings are positions in the rig file's travel
 CarriageRun carriage_run(const Recording& recording, const MacroParameters& macro, bool is_homed = true);
 
-/// Prediction minus reading in counts. While the reading is constant every position that rounds to it is as
-/// good as any other: the error is then what exceeds half a count.
+/// Prediction minus reading in counts. While the reading is constant, all positions that round to it are
+/// equally good; the error is then the part beyond half a count.
 double counted_error(const CarriageRun& run, std::size_t row, double predicted_count);
 
-/// What exceeds half a count in an error, with the error's sign.
+/// The part of an error beyond half a count, with the error's sign; 0 for smaller errors.
 double beyond_rounding(double error_count);
 
 }  // namespace fidservo::gap

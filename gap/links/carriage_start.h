@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The correction of a carried carriage state by the counts of the 100 ms that begin with it
+// The correction of a simulated carriage's state by the counts of the following 100 ms
 // (gap/links/carriage_link.h).
 #include <span>
 
 namespace fidservo::gap {
 
-/// Corrections of the state at the first count, in counts: of the position, and of the velocity dv by the
-/// distance tau dv over which it decays.
+/// Corrections of the state at the first count, in counts: `place_count` of the position, and `coast_count` =
+/// tau dv for a correction dv of the velocity, the distance that the carriage covers while dv decays.
 struct StartCorrection {
     double place_count = 0.0;
     double coast_count = 0.0;
 };
 
-/// The best correction, by Newton's method on start_loss(). This is convex, but errors count from half a
-/// count on, so that a step may leave the piece on which it was computed; it is halved until the loss is
-/// less.
+/// The best correction, by Newton's method on start_loss(). The loss is convex, but only piecewise quadratic,
+/// since errors count only beyond half a count; a Newton step is halved until it lowers the loss.
 /// @param error_count  prediction minus count, tick by tick, with the correction `done` applied
 /// @param ticks_per_tau  time constant of the velocity's decay, in ticks
 StartCorrection estimate_start(std::span<const double> error_count, const StartCorrection& done,

@@ -2,23 +2,23 @@
 #pragma once
 // From setpoints and readings to commands: the rig file's controllers, replayed on what was recorded.
 //
-// A controller is deterministic: with the gains that the rig file states it gives the recorded command to the
-// last digit of the file, so that there is no noise to compare a difference with. Its floor is therefore set
-// to 0.1 mV, or to the rounding of the file's digits where that is coarser. Errors are limited to 10 floors,
-// a millivolt, so that a rig with another controller shows that without hiding its other errors. Under the
-// truth the errors are near 0, not near 1 floor.
+// A controller is deterministic: with the rig file's gains it reproduces the recorded command to the last
+// digit of the recording, so that there is no noise. The floor of this signal is therefore set to 0.1 mV, or
+// to the rounding of the recorded digits if that is coarser. Errors are limited to 10 floors, so that another
+// controller is noticed but does not hide the other errors of a rig. With the true model the errors are near
+// 0, not near 1 floor.
 //
-// A recording can show that its controller is another one only if it claims one: Recording::controllers names
-// it, or the recording is of an experiment that the file's controllers define. All other commands are not
-// judged, but taken as given.
+// Commands are judged only if the recording states that a controller of the rig file made them:
+// Recording::controllers names it, or the recording is of an experiment that is defined by these controllers.
+// All other commands are taken as given.
 //
-// Firmware may round a setpoint to whole counts or truncate it, and may use the reading of this tick or of
-// the last one; and where the last digit of a setpoint in the file leaves its count open
-// (RecordingHeader::macro_setpoint_step_mm), several counts are possible. Of all these combinations the one
-// that fits best is used.
+// Firmware may round a setpoint to whole counts or truncate it, and may use this tick's reading or the
+// previous one's. If a setpoint's recorded digits do not determine its count
+// (RecordingHeader::macro_setpoint_step_mm), several counts are possible. The combination that fits best is
+// used.
 //
-// After missing rows the state of a controller is not known: its last error is known one row later, and its
-// integral follows from the first command that is not saturated.
+// After missing rows the controller's state is unknown at first: the previous error is known one row later,
+// and the integral follows from the first command that is not saturated.
 #include "core/recording.h"
 #include "gap/evidence/windows.h"
 
@@ -39,9 +39,9 @@ struct ControllerRun {
 /// Whether a recording claims that a controller of the rig file was in charge of a stage.
 bool claims_controller(const Recording& recording);
 
-/// The nonlinear PD, the PD that restarts with each setpoint, or the benchmark PID, as far as the recording
-/// claims them: in each stretch the one that fits best. Without windows where none is claimed or the rig file
-/// states no gains.
+/// The nonlinear PD, the PD that restarts with each setpoint, or the benchmark PID, whichever of those that
+/// the recording claims (claims_controller()) fits a stretch best. Without windows if it claims none or the
+/// rig file states no gains.
 /// @param left_out  rows in which the controller did not run; empty: none. Its state is kept over these rows.
 ControllerRun macro_controller_run(const Recording& recording, const Rig& rig,
                                    const std::vector<bool>& left_out = {});

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The distance that a carriage has covered according to its counts, and what its mechanism remembers of it:
-// how far its bristles are deflected (plant/friction.h), and on which side of its play it is
-// (plant/transmission.h). Both follow from the motion alone, so that counts tell them where no simulation
-// leads: at the start of a stretch, or after windows that are not wanted.
+// The distance that a carriage has covered according to its counts, and the state of its mechanism that
+// follows from it: the deflection of the bristles (plant/friction.h) and the side of the play on which the
+// carriage is (plant/transmission.h). This state depends on the past motion alone, so that it can be taken
+// from the counts where no simulation precedes: at the start of a stretch, or after windows that are not
+// simulated.
 //
 // Where the count changes, the carriage is at the border of two counts. In between, its position is taken to
 // be the one nearest to the last position that rounds to the count (a play operator one count wide).
@@ -34,14 +35,13 @@ double covered_count(const CountedWay& way, std::size_t row);
 /// Whether a mechanism, or a formula, depends on its past motion.
 bool remembers(const plant::MacroAxis& axis);
 
-/// What a mechanism remembers at a row, if its bristles were straight and its play was centred at the first
-/// count.
+/// A mechanism's state at a row, if the bristles were straight and the play was centred at the first count.
 plant::MechanismState remembered(const CountedWay& way, const plant::MacroAxis& axis, double mm_per_count,
                                  std::size_t row);
 
-/// Whether the result of remembered() is as certain as a simulation: there is nothing to remember, or the
-/// carriage moves in one direction through the row and has covered enough distance to forget all that was
-/// before.
+/// Whether the result of remembered() is as certain as a simulated state: the mechanism has no such state, or
+/// the carriage moves through the row in one direction and has covered enough distance in it that the state
+/// no longer depends on earlier motion.
 bool is_remembered(const CountedWay& way, const plant::MacroAxis& axis, double mm_per_count, std::size_t row);
 
 }  // namespace fidservo::gap

@@ -13,14 +13,15 @@
 // plant/view/view_options.h. No rig file states how bright lamp and paper are, so that light is compared
 // within a second only. v is the tag's velocity in the image, px/s, by the five-point formula from its
 // positions two frames before to two frames after; it depends on no model of the stages. A tag is not judged
-// in a frame where any of these frames does not show it, or where the differences over one and over two
-// frames are too far apart for an even motion: the first differences (by jerk) or the second differences (by
-// a jump of the velocity).
+// in a frame if one of the five frames does not show it, or if the motion is not smooth enough for the
+// formula: the first differences (jerk) or the second differences (a jump of the velocity) over one frame and
+// over two frames disagree too much.
 //
 // floor^2 of a logarithm = (the measurement's own noise)^2 + allowance^2 + (effect of v's uncertainty)^2
 //
-// Allowances bound the systematic errors of the measurements: if these are evenly spread within them, the
-// mean square under the truth is (floor^2 - 2/3 allowance^2) / floor^2.
+// An allowance is a bound of the systematic error of a measurement. If systematic errors are uniformly
+// distributed within the bound, the mean square error of the true model, in floors^2, is (floor^2 - 2/3
+// allowance^2) / floor^2.
 #include "core/camera/camera_parameters.h"
 #include "core/recording.h"
 #include "gap/evidence.h"

@@ -2,17 +2,17 @@
 #pragma once
 // From the micro command to the Hall reading: wire, platform and sensor of a hypothesis along a recording.
 //
-// One simulation from the start of the recording carries temperature, hysteresis memory, swing and drift.
-// Before each window the temperature is corrected by the readings of the 100 ms before it, as a Kalman filter
-// would (Maybeck, Stochastic Models, Estimation, and Control 1, 1979, ch. 5): with h the derivative of the
-// prediction with respect to temperature, r the reading minus the prediction, and std the standard deviation
-// of the carried temperature,
+// One simulation from the start of the recording gives temperature, hysteresis memory, swing of the platform
+// and drift of the sensor. Before each window the temperature is corrected by the readings of the 100 ms
+// before it, as a Kalman filter would (Maybeck, Stochastic Models, Estimation, and Control 1, 1979, ch. 5):
+// with h the derivative of the prediction with respect to temperature, r the reading minus the prediction,
+// and std the standard deviation of the simulated temperature,
 //
 //     dT = (sum h r / floor^2) / (1 / std^2 + sum h^2 / floor^2)
 //
-// limited to three times std. Where the wire does not move with its temperature nothing is corrected. The
-// correction shifts the end of the hysteresis branch on which the wire is, so that its memory stores no
-// reversal that never happened.
+// limited to three times std. Where the contraction does not depend on the temperature, h = 0, nothing is
+// corrected. A correction moves the end of the present hysteresis branch; it does not add a reversal to the
+// memory.
 #include "core/micro_parameters.h"
 #include "core/recording.h"
 #include "gap/budget.h"
@@ -30,8 +30,8 @@ namespace fidservo::gap {
 /// What is known of a wire when its recording begins.
 enum class WireStart {
     cold,     ///< at the room's temperature
-    unmoved,  ///< it remembers nothing, but may be warmer than the room
-    warm,     ///< neither its temperature nor its memory is known
+    unmoved,  ///< not yet contracted (its hysteresis memory is empty), but possibly warmer than the room
+    warm,     ///< neither its temperature nor its hysteresis memory is known
 };
 
 /// The platform's part of a recording, row by row.
@@ -43,16 +43,17 @@ struct PlatformRun {
     std::vector<double> hall_adc;          ///< NaN where missing, or at an end of the range
     std::vector<int> ticks;                ///< number of ticks to the next row
     std::vector<WindowRows> windows;       ///< sorted by time
-    /// For each window, whether the platform is offset from its prediction by a constant that the rows before
-    /// the window tell (gap/links/wire_memory.h); empty: no window is.
+    /// For each window, whether the platform is offset from its prediction by an unknown constant, which is
+    /// estimated from the rows before the window (gap/links/wire_memory.h). Empty if no window has such an
+    /// offset.
     std::vector<bool> is_beside;
     WireStart start = WireStart::cold;  ///< what is known of the wire (gap/links/wire_start.h)
     double floor_lsb = 0.0;
 };
 
-/// What a warm wire remembers is not known after a pause of rows or commands of more than 0.1 s, or of 10 ms
-/// if the command has changed: windows are then left out until the wire has been cold for five cooling time
-/// constants.
+/// The hysteresis memory of a warm wire is unknown after rows or commands are missing for more than 0.1 s, or
+/// for 10 ms if the command has changed meanwhile. Windows are then left out until the wire has been cold for
+/// five cooling time constants.
 PlatformRun platform_run(const Recording& recording, const MicroParameters& micro, const HallRange& range,
                          double floor_lsb);
 
@@ -64,22 +65,23 @@ struct PlatformModel {
 /// Requires a micro stage.
 PlatformModel platform_model(const plant::PlantParameters& parameters);
 
-/// The same stage with a tick that is a whole fraction of the rig's, for what happens within a tick: a wire
-/// that begins to transform moves the platform by many micrometres a millisecond at once.
+/// The stage with a tick that is a whole fraction of the rig's, for positions within a tick: a wire that
+/// begins to transform moves the platform by many micrometres a millisecond.
 struct FinerStage {
     plant::MicroStage stage;
     std::size_t parts;  ///< of a tick
 };
 
-/// Requires a micro stage. Parts of at most a millisecond: within that a straight line does.
+/// Requires a micro stage. The parts are at most a millisecond long; within a part, linear interpolation is
+/// precise enough.
 FinerStage finer_stage(const plant::PlantParameters& parameters);
 
 struct PlatformPrediction {
     std::vector<double> reading_lsb;  ///< mean reading in the rows of all windows; NaN elsewhere
     std::vector<double> path_lsb;  ///< in all rows, faded into each window's path over the 100 ms before it
     std::vector<double> temperature_degC;  ///< of the wire in all rows, not faded
-    /// By how much, within the tick after each row, the reading exceeds a straight line from row to row: at
-    /// the ends of all parts of the tick but the last. Empty unless a finer stage was given.
+    /// How far the reading is above the straight line from each row to the next, at the end of every part of
+    /// the tick but the last, LSB. Empty unless a finer stage was given.
     std::vector<double> bends_lsb;
 };
 

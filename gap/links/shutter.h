@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A camera's exposure and readout times, as far as its frames show them before anything is fitted.
+// A camera's exposure and readout times as observed in its frames, without a fit.
 //
 //     exposure  T^2 = 12 (variance of an edge across the motion - variance of one along it) / speed^2
 //     readout   displacement of a tag's lower corners against its upper ones along the motion, over speed

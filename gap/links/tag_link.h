@@ -7,10 +7,10 @@
 // hypothesis's sensors. The hypothesis's camera sees a corner of a tag from its position s at the time at
 // which the corner's row was exposed.
 //
-// The encoder does not tell where within its count the carriage is; a count is 12 px on the reference rig.
-// The detections of the 100 ms before a window do: they give an offset of y for the window, of at most a
-// count, relative to the simulation that leads into it. Later detections weigh more, since an error of that
-// simulation's start dies out.
+// The encoder does not determine the carriage's position within a count, which is 12 px on the reference rig.
+// The tags detected in the 100 ms before a window do: they give an offset of y for the window, of at most a
+// count, relative to the window's simulation, which begins with these 100 ms. Later detections have a larger
+// weight, since an error of the simulation's start decays.
 //
 // Where the encoder's zero is known from the tags alone (gap/links/power_on.h), each hypothesis estimates the
 // zero's error anew: with another camera, or another scale of the counts, the same detections give another
@@ -21,13 +21,13 @@
 //
 //     floor^2 = corner noise^2 + |d corners / ds|^2 (std of x ^2 + std of y ^2)
 //
-// The std of x is the smoothed reading's. That of y grows from the start of the 100 ms before the window as a
-// share of the distance covered, up to what rounding hides. Where no detection gave the offset it is as large
-// as that from the start.
+// The std of x is that of the smoothed reading. The std of y grows in proportion to the distance covered
+// since the start of the 100 ms before the window, up to that of a position within its count. If there was no
+// detection for the offset, it has this largest value throughout.
 //
 // With a rolling shutter, which exposes rows one after the other, the error of s differs from corner to
-// corner. The floors of the other values then contain the change of the smoothed reading's error from the
-// first of these times to the last one, and the same share of the carriage's distance between them.
+// corner. The floors of the other seven values then contain the change of the smoothed reading's error from
+// the exposure of the first corner to that of the last, and the growth of the std of y between these times.
 #include "gap/evidence.h"
 #include "gap/links/carriage_link.h"
 #include "gap/links/hall_smoothing.h"
@@ -85,7 +85,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
                const CarriageRun& carriage, const PlatformRun* platform, const SmoothedReading* reading,
                const TagNoise& noise);
 
-/// The camera of a hypothesis, and the sensors that tell its position.
+/// The camera of a hypothesis, and the sensors from which its position follows.
 struct TagModel {
     CameraGeometry nominal;
     plant::ActualCamera camera;  ///< its geometry, if that does not change with time or position
@@ -99,11 +99,12 @@ struct TagModel {
 /// Requires a camera.
 TagModel tag_model(const plant::PlantParameters& parameters, const Rig& rig);
 
-/// Values of a detection, reflected as its errors are.
+/// The eight values of a detection, px, after the reflection that is described above.
 CornerValues turned(const TagSighting& sighting, const CornerValues& values);
 
-/// The carriage's position minus that by its encoder's zero, mm: the median over detections spread evenly
-/// over the recording; 0 where the zero is known without them.
+/// The error of the encoder's zero under a hypothesis, mm: the carriage's position by the tags minus that by
+/// the encoder, as the median over detections that are spread evenly over the recording. 0 if the zero is
+/// known without tags.
 double zero_offset_mm(const TagModel& model, const TagRun& run, const CarriagePath& path,
                       const SmoothedReading* reading);
 

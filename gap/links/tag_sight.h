@@ -14,7 +14,7 @@ struct TagSight {
     double position_mm;        ///< of the carriage
     double velocity_mm_per_s;  ///< of carriage and platform together
     double contraction_mm, time_s;
-    bool has_stood;  ///< whether nothing has moved for 100 ms, which are some frames
+    bool has_stood;  ///< whether both stages have stood still for the last 100 ms
 };
 
 /// The motion is taken from the readings.

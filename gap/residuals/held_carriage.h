@@ -2,16 +2,16 @@
 #pragma once
 // Whether something holds a carriage that the drive should move.
 //
-// Friction at rest does not show in the forces that a sliding carriage lacks (gap/balance/carriage_forces.h).
-// It shows where the carriage stands although its command is clearly beyond the dead zone's edge; near the
-// edge any small force can hold it.
+// Static friction does not show in the forces on a sliding carriage (gap/balance/carriage_forces.h). It shows
+// if the carriage stands although the command is clearly outside the dead zone; near the dead zone's edge any
+// small force can hold it.
 #include "gap/evidence.h"
 
 namespace fidservo::gap {
 
-/// Whether the carriage stands in this way, away from the ends of the rail, for longer than its inertia and a
-/// play of a millimetre explain: at least twice, and while the rig file's drive would have moved it by 5 mm
-/// in total, the first time constant not counted.
+/// Whether the carriage stands under such a command, away from the ends of the rail, for longer than its
+/// inertia and a play of a millimetre explain. This must happen at least twice; the motion that the rig file
+/// predicts for these times, after one time constant each, must exceed 5 mm in total.
 bool carriage_is_held(const Evidence& evidence);
 
 }  // namespace fidservo::gap

@@ -2,8 +2,8 @@
 #pragma once
 // Whether the images of tags are sheared by their motion, as by a rolling shutter.
 //
-// A common readout time r is fitted to all detections of tags that are also in the frames before and after,
-// by the corners' components except that along the stage's motion:
+// A common readout time r, s, is fitted to the errors of all detections of tags that the frames before and
+// after show, too. The component along the stage's motion is left out of the fit:
 //
 //     error of a corner = r v (row of the corner - mean row of the corners) / (height - 1)
 //
@@ -12,7 +12,8 @@
 
 namespace fidservo::gap {
 
-/// Whether that explains 70 % or more of the squared errors in the tags' shapes.
+/// Whether this model explains 70 % or more of the squared errors, the component along the stage's motion
+/// left out.
 bool tags_are_sheared(const Evidence& evidence, const Errors& errors);
 
 }  // namespace fidservo::gap

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Flexible models of errors in a part of the signal chain, without naming an effect: any function of
-// velocity, any function of position, any periodic function of position, and so on, each a group of columns
-// for gap/fit/regression.h. For the carriage they are compared with the forces that its prediction lacks
-// (gap/balance/carriage_forces.h); for the image they are displacements of corners.
+// Flexible models (surrogates) of the errors of a part of the signal chain, which name no effect: any
+// function of velocity, any function of position, any periodic function of position, and so on. Each is a
+// group of regression columns (gap/fit/regression.h). For the carriage the columns describe forces that its
+// prediction lacks (gap/balance/carriage_forces.h), for the tags displacements of corners in the image.
 #include "gap/balance/period_search.h"
 #include "gap/evidence.h"
 #include "gap/fit/regression.h"
@@ -27,15 +27,15 @@ enum class Dependence : std::uint8_t {
     nothing,         ///< constant errors
     time,
     temperature,
-    temperature_before,  ///< temperature behind lags of some time constants
+    temperature_before,  ///< temperature behind first-order lags of several time constants
     minor_loops,         ///< on minor loops only: gap/residuals/minor_loops.h
     contraction,         ///< in proportion to the platform's contraction; for tags, any function of it
-    contraction_before,  ///< contraction behind a lag of the wire
+    contraction_before,  ///< contraction behind a first-order lag of the wire
     platform_place,      ///< any function of the platform's position, the same for heating and cooling
     turns_of_wire,       ///< the contraction since the wire's last reversal
     macro_command,
     position_friction,  ///< a friction that depends on the position
-    position_drive,     ///< a periodic part of the drive's force
+    position_drive,     ///< a periodic dependence of the drive's force on the position
     way_friction,       ///< a friction that depends on the distance covered so far
     standing,           ///< only where the carriage stands: gap/residuals/held_carriage.h
     image_place,
@@ -44,7 +44,7 @@ enum class Dependence : std::uint8_t {
     tag_size,
     tag_itself,     ///< a constant displacement of its own for each tag
     motion_by_row,  ///< a tag's motion in the image, by row: gap/residuals/sheared_tags.h
-    /// in proportion to velocity, which has fewer degrees of freedom than any function of it.
+    /// in proportion to velocity: fewer degrees of freedom than `velocity`, which is any function of it
     velocity_share,
     command_share,     ///< in proportion to the command
     position_share,    ///< in proportion to the position
@@ -52,43 +52,44 @@ enum class Dependence : std::uint8_t {
     warmth_over_time,  ///< the wire's response to heat that changes over time
 };
 
-/// The quantity's name. A dependence in proportion to a quantity has the same name as any function of it.
+/// The quantity's name in reports; velocity_share has the same name as velocity, and so on.
 std::string_view name_of(Dependence dependence);
 
 struct Surrogate {
     Signal signal;
     std::vector<Column> columns;    ///< the columns' groups are values of Dependence
     std::vector<Column> nuisances;  ///< columns for the initial state of each window
-    /// The errors to be explained and the windows with their ranges among these, where they are not the
-    /// signal's.
+    /// The errors to be explained, and the windows with their ranges in `errors`; empty if both are those of
+    /// the signal.
     Errors errors{};
     std::vector<Window> windows{};
     double period_mm = 0.0;  ///< period of Dependence::position_period and reading_period
-    /// Groups that explain at least this fraction of what the best one explains count as equally good, as its
-    /// lead may be chance; of those the one with the fewest columns is preferred.
+    /// Groups that explain at least this fraction of what the best group explains count as equally good,
+    /// since its lead may be chance. Among these, the group with the fewest columns is preferred.
     double as_good = 0.8;
 };
 
-/// Whether each recording may count positions from a zero of its own, as recordings of positions do that have
-/// no counts from an end stop.
+/// Whether positions of different recordings may have different zeros: positions were recorded, not counts
+/// from an end stop.
 bool has_own_zeros(const Evidence& evidence);
 
 /// The distance covered since a recording's first row, for each row of every recording, mm.
 std::vector<std::vector<double>> ways_gone_mm(const Evidence& evidence);
 
-/// The surrogate for the forces that the encoder's errors lack. Where recordings have different zeros, waves
-/// have a phase of their own in each: both halves must then have parts of each recording.
+/// The surrogate for the forces that the encoder's errors show to be lacking. If recordings have different
+/// zeros, periodic columns have a separate phase for each recording; both halves of the data must then have
+/// windows of every recording.
 /// @param edge_V  as in gap/balance/carriage_forces.h
 /// @param period  a possible period of the position; 0 mm: none
 Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, double edge_V,
                              const PositionPeriod& period);
 
-/// The surrogate for the Hall reading's errors, with these errors.
+/// The surrogate for the Hall reading's errors; Surrogate::errors and windows are set.
 Surrogate platform_surrogate(const Evidence& evidence, const Errors& errors);
 
-/// The surrogate for the tags' errors. Dependences without a direction of their own shift tags along the
-/// stage's motion; each window's mean along it is a nuisance parameter.
-/// @param errors  in which the period is searched for
+/// The surrogate for the tags' errors. Dependences on a scalar quantity shift the tags along the stage's
+/// motion; each window's mean shift in this direction is a nuisance parameter.
+/// @param errors  of the tags, in which a period along the rail is searched for
 Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors);
 
 }  // namespace fidservo::gap

@@ -87,7 +87,8 @@ CornerPattern by_image_place(const CameraGeometry& camera,
     };
 }
 
-/// The tag larger about its own middle.
+/// Displacement of the corners, px, when the tag is enlarged about its centre so that each corner moves
+/// outwards by 1 px.
 CornerValues larger(const TagSight& sight) {
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     for (int c = 0; c < 4; ++c) middle += 0.25 * sight.tag.corners_px.segment<2>(2 * c);
@@ -97,7 +98,8 @@ CornerValues larger(const TagSight& sight) {
     return values;
 }
 
-/// All corners at right angles to the stage's motion in the image.
+/// Displacement of all corners, px, at right angles to the stage's motion in the image; its eight values have
+/// the norm 1 px.
 CornerValues across(const TagSight& sight) {
     const CornerValues motion = turned(sight.tag, CornerValues::Unit(0));
     CornerValues values;

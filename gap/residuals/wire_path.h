@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The contraction of a rig file's wire at the temperatures of a recording, and its effect on the platform.
+// The wire's contraction by the rig file at the temperatures of a recording, and how it reaches the platform.
 #include "gap/evidence.h"
 
 #include <cmath>
@@ -12,11 +12,12 @@ namespace fidservo::gap {
 /// missing, the value before. Demands a micro stage.
 std::vector<float> wire_path_mm(const Evidence& evidence, std::size_t run);
 
-/// The path behind a play operator of some width: it follows only while it is pushed, so that it rests after
-/// a reversal until the play is crossed.
+/// The output of a play (backlash) operator: after a reversal it rests until the input has moved by
+/// `width_mm`.
 std::vector<float> behind_play(std::vector<float> path_mm, double width_mm);
 
-/// The values behind a first-order lag. Values that are not finite are skipped.
+/// The output of a first-order lag for these values as input. At values that are not finite it stays
+/// constant.
 template <class Value>
 std::vector<Value> behind_lag(std::vector<Value> values, double tau_s, double tick_s) {
     const double share = -std::expm1(-tick_s / tau_s);

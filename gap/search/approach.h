@@ -2,9 +2,9 @@
 #pragma once
 // From a distant start to the neighbourhood of an optimum, for fits of many candidates at once.
 //
-// Far from the optimum, errors up to a level of a floors, a^2 = 1 + the median of S_w, count as noise
-// (gap/fit/fit.h), so that all windows draw the fit and not only those with the smallest errors; the level
-// falls with the median from one fit to the next.
+// Far from the optimum, the noise level of the fit (gap/fit/fit.h) is raised to a floors, a^2 = 1 + median of
+// S_w, with S_w the mean square error of window w in floors^2. All windows then draw the fit and not only
+// those with the smallest errors. The level falls with the median from one fit to the next.
 #include "gap/candidates/candidate.h"
 #include "gap/fit/fit.h"
 
@@ -12,11 +12,12 @@
 
 namespace fidservo::gap {
 
-/// How far an approach came.
+/// The result of an approach.
 struct Approach {
     Hypothesis settings;
-    /// Median mean square, in floors^2, over the windows that tell how far it is to the optimum: those that
-    /// are off where the candidates have no effect. Of several signals, that of the one furthest off.
+    /// How far `settings` are from the optimum: the median of S_w, floors^2, over the windows that are off
+    /// their floors if the candidates have no effect. If there are windows of several signals, the largest of
+    /// their medians.
     double median_square;
 
     /// Whether at least half of these windows are predicted nearly to their floors.
@@ -25,16 +26,17 @@ struct Approach {
     static constexpr double near_square = 2.0;
 };
 
-/// Fits in several steps, until nothing improves; none from a start that is near. A scale error of the
-/// encoder, whose fits end at the nearest count, begins each step with its best value within counts
-/// (settings_within_counts()).
-/// @param candidates  of the settings, in their order
+/// Fits in several steps, until the median of S_w no longer halves, but at most six. A start that is near the
+/// optimum is not fitted. The loss as a function of an encoder's scale error has a minimum for each count;
+/// each step starts from the best of the values in settings_within_counts().
+/// @param candidates  whose settings `start` has, in the same order
 /// @param predict     errors in the windows that are wanted
-/// @param options     of each step, but for its end and its noise
+/// @param options  for the fit of each step; number of iterations, tolerance and noise level are overwritten
 Approach approach(const Evidence& evidence, std::span<const Candidate* const> candidates,
                   const Predict& predict, const Wanted& wanted, Hypothesis start, FitOptions options);
 
-/// The median mean square, in floors^2, of errors over the windows that tell how far it is to the optimum.
+/// The median of S_w, floors^2, over those wanted windows that the given errors leave off their floors; if
+/// there are windows of several signals, the largest of their medians.
 double median_square_off(const Evidence& evidence, const Wanted& wanted, const Errors& errors);
 
 }  // namespace fidservo::gap

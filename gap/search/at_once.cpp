@@ -61,8 +61,9 @@ bool is_largest_gap(const Search& search, const CrossFit& fitted, Signal signal)
     return search.furthest_off(fitted) == signal && search.far_off(fitted)[index_of(signal)];
 }
 
-/// Whether tags are better not explained before the carriage is: its place when a frame was taken is known
-/// within a count only where its motion is predicted.
+/// Whether the tags are to be explained after the carriage. The carriage's place at the time of a frame is
+/// known to within a count only if its motion is predicted well; until then its error would be blamed on the
+/// camera.
 bool should_tags_wait(const Search& search, const Chain& chain) {
     return search.typical_floors(chain.fitted, Signal::encoder) > least_floors &&
            is_largest_gap(search, chain.fitted, Signal::encoder);

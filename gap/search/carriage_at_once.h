@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// An explanation of the carriage's motion by forces that balance, and by what is no force beside them.
+// An explanation of the carriage's motion by forces, found from their balance, and by effects that are not
+// forces (play, a belt, a late command).
 #include "gap/search/chain.h"
 
 #include <optional>
@@ -8,32 +9,37 @@
 
 namespace fidservo::gap {
 
-/// Chains that are kept aside.
+/// Chains that compete with the present one or are to be joined to it later.
 struct Aside {
-    /// The whole chain with a model from the balance of forces that leaves the encoder off its floor. The
-    /// chain itself then loses its effects on the carriage's motion, so that the search for these can begin
-    /// afresh.
+    /// The chain with a model from the balance of forces, if that model leaves the encoder off its floor. The
+    /// search for effects on the carriage's motion then begins afresh, from the chain without any, and its
+    /// result competes with this one.
     std::optional<Chain> by_forces;
-    /// Whether that model removes most of the encoder's excess by forces alone. Many effects that leave most
-    /// of it stand in for something else, and so do forces beside a late command.
+    /// Whether all effects of `by_forces` on the carriage's motion are forces and remove most of the
+    /// encoder's excess over its floor. If they leave most of it, or need a late command as well, they only
+    /// imitate another cause.
     bool is_by_forces_mostly = false;
-    /// While the carriage is explained: the smooth effects of Hall reading and tags, to be joined to the
-    /// chain afterwards, or where the search ends meanwhile.
+    /// While the carriage is explained: the chain with the smooth effects of Hall reading and tags. They are
+    /// joined to the chain afterwards, also if the search ends meanwhile.
     std::optional<Chain> smooth;
 };
 
-/// Explains the encoder by a model from the balance of the carriage's forces. What these leave is explained
-/// by what is best beside them, where they explain most; where they do not, by one effect that is no force
-/// and the forces beside it.
+/// Explains the encoder by a model from the balance of the carriage's forces. If the model explains most of
+/// the encoder's error, further effects are added to it; otherwise the encoder is explained by one effect
+/// that is not a force and by the forces that are found beside that.
 /// @param alone  trials of single effects; those made here are added
-/// @return whether the search for more is to start from there
+/// @return whether the encoder is at its floor, or so near that the search for further effects starts from
+/// this model
 bool explain_carriage(Search& search, Chain& chain, Aside& aside, std::vector<Trial>& alone);
 
-/// The same by forces alone, where an effect of the encoder's reading has been found since: it makes the
-/// motion known better, and with it the forces.
+/// Replaces all effects on the carriage's motion by a new model from the balance of forces if that is better.
+/// To be called after an effect on the encoder's reading was found, since motion and forces are then known
+/// better.
+/// @return as explain_carriage()
 bool explain_carriage_again(Search& search, Chain& chain, Aside& aside, std::vector<Trial>& alone);
 
-/// A chain without effects on the carriage's motion. Effects on its reading stay, since tags show them, too.
+/// A chain without its effects on the carriage's motion. Effects on the encoder's reading stay, since the
+/// tags show them, too.
 Chain without_carriage(const Search& search, const Chain& chain);
 
 /// A chain whose effects on the carriage's motion or its encoder are replaced by those of another chain.

@@ -7,7 +7,7 @@
 
 namespace fidservo::gap {
 
-/// Least gain of a leader, relative to the best one's.
+/// Least gain of a leader (Trial::is_leader), relative to the largest gain.
 inline constexpr double share_of_gain = 0.5;
 
 /// Mean square, floors^2, above which a window counts as far off.
@@ -23,8 +23,8 @@ struct Search::Contender {
     double gain() const { return trial.gain; }
     SignalFlags teachers() const { return teachers_of(*trial.candidate->effect); }
 
-    /// A half's base with the candidate, where `part` states their fitted values: of the coupled settings,
-    /// then of the candidate.
+    /// The base as fitted on one half, with the candidate appended and the fitted values put in.
+    /// @param part  the coupled settings, then the candidate's
     Hypothesis placed(const CrossFit& base, std::size_t side, const Hypothesis& part) const {
         return extended(base.of_half[side], coupled, part);
     }

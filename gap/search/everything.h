@@ -3,11 +3,12 @@
 // Backward elimination: all candidates of signals whose predictions change smoothly with the candidates'
 // sizes are fitted at once; then those that the data do not need are removed.
 //
-// Where several small causes act together, none of them predicts well alone, and the first one accepted
-// stands in for the others. All sizes together, with a prior of a few typical sizes about zero, are found in
-// some steps of Levenberg-Marquardt (gap/fit/fit.h), far from the optimum by gap/search/approach.h. What each
-// saves then follows to second order (gap/search/worth.h), and a fit without those that save too little has
-// to confirm that.
+// Where several small causes act together, none of them predicts well alone, and the first one accepted would
+// stand in for the others. All sizes together are found in a few steps of Levenberg-Marquardt
+// (gap/fit/fit.h), with a prior for the sizes (zero mean, standard deviation of a few typical sizes); a start
+// that is far from the optimum is led there by gap/search/approach.h. The loss that each candidate saves then
+// follows from the loss to second order (gap/search/worth.h). Those that save too little are removed if a fit
+// without them confirms it.
 #include "gap/candidates/candidate.h"
 #include "gap/candidates/coupling.h"
 #include "gap/evidence.h"
@@ -25,41 +26,46 @@ struct NeededCandidates {
     std::vector<const Candidate*> candidates;
     std::array<Hypothesis, 2> of_half;  ///< as fitted on each half, one setting for each candidate
     std::vector<double> worth;  ///< for each, the loss that it saves beside the others, on both halves
-    /// How the budget's search ended before all was fitted: these candidates are needed as far as is known.
-    /// The other half is then fitted in the time for working out; where that ends, too, both halves have the
-    /// values of the first one, and the worth is what they save there. Empty: it did not end.
+    /// Why the search was cut short by its budget; empty if it was not. If it was, these are the candidates
+    /// that are needed as far as is known, and the second half was fitted in the time for evaluating the
+    /// result. If that time ended as well, both halves have the values of the first half, and `worth` is the
+    /// loss saved there.
     std::optional<Ended> ended = {};
 };
 
-/// Whether predictions of the Hall reading or the tags change smoothly with a candidate's sizes: effects of
-/// wire, sensors and view. A scale error of the encoder is one of them, since tags show what hides within its
-/// counts.
+/// Whether a candidate is estimated from Hall reading or tags, whose predictions change smoothly with its
+/// sizes: effects on wire, sensors and view. A scale error of the encoder is one of them, since the tags show
+/// parts of a count.
 bool is_smooth(const Candidate& candidate);
 
-/// Whether predictions of a carriage that is predicted nearly right change smoothly with a candidate's sizes:
-/// it acts as a force, without play, place or period, and does not hide within the counts.
+/// Whether predictions of the encoder change smoothly with a candidate's sizes, once the carriage is
+/// predicted nearly right: true for forces without a place or a period, false for play and for a scale error
+/// of the encoder, which shows in steps of a count only.
 bool is_smooth_of_carriage(const Candidate& candidate);
 
-/// What is done where the fit of everything does not come near its optimum: what is off is then of another
-/// kind, or another signal is still to be explained.
+/// What needed_of_everything() does if the fit of all candidates does not come near an optimum, because the
+/// cause is of another kind or another signal has to be explained first: return no candidates, or eliminate
+/// all the same.
 enum class IfFar : std::uint8_t { gives_up, goes_on };
 
-/// Fits all candidates without a shape of their own, and those in `begun`, to the first half, keeps those
-/// that are worth it there, fits these to the other half, too, and keeps those that are worth it on both.
-/// @param candidates  one of each class
-/// @param beside      other settings of each half, which keep their values
-/// @param begun       settings of candidates that were found before, from which their fits start
-/// @param known       settings of an explanation that is there already: empty if none but these are needed
+/// Fits all candidates without shape parameters, and those in `begun`, to the first half and keeps those that
+/// save enough loss there (gap/search/worth.h); then fits these to the second half and keeps those that save
+/// enough on both.
+/// @param candidates  one of each class of effects that no data can distinguish
+/// @param beside  settings of other effects on each half, which keep their values
+/// @param begun  settings of candidates that were found before: start values
+/// @param known  settings of the present explanation; the result is empty if no other candidates than these
+/// are needed
 /// @param wanted      the windows that are fitted in each half
 NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const Candidate* const> candidates,
                                       const std::array<Hypothesis, 2>& beside, const Hypothesis& begun,
                                       const Hypothesis& known, const std::array<Wanted, 2>& wanted,
                                       IfFar if_far);
 
-/// Settings of those candidates with a shape of their own that are not in `begun` and promise anything beside
-/// all others (gap/starts/shape_screening.h), the one that saves most first.
-/// @param waves  settings of waves along the rail to be screened as well; no grid contains their periods. As
-/// errors show one of many periods by chance, one has to save a fifth of the loss
+/// Start settings of those candidates with shape parameters that are not in `begun` and are estimated to save
+/// loss beside all other candidates (gap/starts/shape_screening.h), the one that saves most first.
+/// @param waves  settings of waves along the rail to be screened as well; no grid contains their periods.
+/// Each has to save a fifth of the loss, since errors show one of many periods by chance
 /// @param beside, wanted  of the first half; like the other parameters as in needed_of_everything()
 Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,
                             std::span<const plant::EffectSetting> waves, const Hypothesis& beside,

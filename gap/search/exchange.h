@@ -5,15 +5,17 @@
 
 namespace fidservo::gap {
 
-/// Tests each effect, since one that was accepted first may be a compromise of two others: it is given up if
-/// the rest does as well without it, and otherwise exchanged for what is best beside the rest. As long as
-/// nothing has changed, the last effect needs no test: it was found beside this very rest.
+/// Tests each effect of a chain, since an effect that was accepted early may be a compromise between two
+/// others. It is removed if the remaining effects explain as well without it, and otherwise replaced by the
+/// effect that explains best beside them. The last effect of an unchanged chain is not tested: it was
+/// selected beside exactly these others.
 /// @param changed  whether the chain was changed before
 /// @return whether it was changed before or here
 bool exchange(Search& search, Chain& chain, bool changed);
 
-/// A chain without those effects without which, once the rest is fitted again, no gap is left in the signals
-/// that they change: a shorter explanation does as well. The few that matter least are tested.
+/// Removes effects that are not needed for an explanation without a gap: after refitting the others, all
+/// signals that the removed effect changes are still at their floors. Only the few effects that matter least
+/// are tested.
 Chain without_needless(const Search& search, const Evidence& evidence, Chain chain);
 
 }  // namespace fidservo::gap

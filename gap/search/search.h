@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// One step of a search: which effect, added to those known, predicts best the windows that were not fitted.
+// One step of a search: which effect, added to those already accepted, gives the best predictions of the
+// windows that were not fitted.
 #include "gap/budget.h"
 #include "gap/candidates/candidate.h"
 #include "gap/fit/cross_fit.h"
@@ -20,14 +21,14 @@
 
 namespace fidservo::gap {
 
-/// A candidate that was added to a hypothesis. If it promised little it was not fitted: it has no gain and no
-/// cross fit.
+/// A candidate as an addition to a hypothesis. A candidate that promised little was not fitted; it has no
+/// gain and no cross fit.
 struct Trial {
     const Candidate* candidate = nullptr;
-    double promised = 0.0;  ///< estimated loss saved, without a fit, in the windows to be fitted
+    double promised = 0.0;  ///< loss saved in the windows to be fitted, as estimated without a fit
     double gain = 0.0;      ///< loss saved in the held-out windows
-    /// Whether it was fitted on both halves; otherwise it was fitted on the first one at most, and judged on
-    /// some windows of the second.
+    /// Whether it was fitted on both halves. Otherwise it was fitted on the first half or not at all, and
+    /// judged on some windows of the second half.
     bool is_leader = false;
     CrossFit fitted = {};
 };
@@ -35,15 +36,17 @@ struct Trial {
 /// How many of the most promising candidates a step fits, and how many of these on both halves.
 struct Effort {
     std::size_t fits = 8, leaders = 4;
-    /// Whether the best wave or spring is also fitted from many drawn values if it leaves a gap.
+    /// Whether a wave or a spring that is best and leaves a gap is also fitted from many randomly drawn start
+    /// values.
     bool scatters = true;
     bool refines = true;  ///< whether the leaders' first, coarse fits are followed by close ones
-    /// Another explanation that the candidates compete with: what promises little beside its gain is not
-    /// fitted.
+    /// Another explanation that the candidates compete with: candidates that promise little compared with its
+    /// gain are not fitted. May be null.
     const CrossFit* competitor = nullptr;
 };
 
-/// Share of a signal's excess that a wave removes once its place and period are nearly right.
+/// A wave that removes this share of a signal's excess over its floor is in the right local minimum: its
+/// phase and period are nearly right.
 inline constexpr double in_its_valley = 0.999;
 
 struct SearchOptions {
@@ -53,7 +56,7 @@ struct SearchOptions {
     double most_effort = 5'000.0;
     /// Called with a description of what is tried next.
     std::function<void(std::string_view)> tell = {};
-    /// Probability of accepting anything where there is nothing, over the whole search.
+    /// Significance level of the whole search: the probability of accepting any effect if the rig has none.
     double tail = 0.01;
 };
 
@@ -71,29 +74,29 @@ class Search {
     Search(const Search&) = delete;
     Search& operator=(const Search&) = delete;
 
-    /// Throws SearchExhausted if the evidence's budget has ended during a refinement, whose best result was
+    /// Throws SearchExhausted if the evidence's budget has ended during a fit whose best result so far was
     /// kept.
     void throw_if_over() const;
 
-    /// Whether the effort is limited: it is not for the first effect, nor where known effects are refitted
-    /// and judged. Once a limited effort is spent, all functions that fit throw SearchExhausted.
+    /// Switches the limit on the effort (SearchOptions::most_effort) on or off; it is off at first. Once a
+    /// limited effort is spent, all functions that fit throw SearchExhausted.
     void limit(bool is_limited) { is_limited_ = is_limited; }
 
-    /// Restricts the search to causes that show in some signals, and to a share of the whole effort, counted
-    /// from the start of the search. Initially it includes all signals and the whole effort.
+    /// Restricts the search to effects that change any of some signals, and to a share of the whole effort,
+    /// counted from the start of the search. Without a call it looks at all signals with the whole effort.
     void look_for_causes_in(const SignalFlags& signals, double share_of_effort) {
         focus_ = signals;
         share_of_effort_ = share_of_effort;
     }
 
-    /// Those of all smooth candidates of Hall reading and tags that are needed beside a base's other effects,
-    /// fitted at once on both halves (gap/search/everything.h), starting from the base's own settings of
-    /// these candidates. They are the last settings of the fit, in the order of `candidates`. A Hall reading
-    /// that is off its floor is explained first, without the tags, which show what moves the platform and
-    /// what the camera sees of it: by sizes, or, where these do not come near, with shapes that promise
-    /// anything. Where it is not far off any more, the tags are explained next by what the camera alone can
-    /// see. Where that leaves something in the tags, both signals are explained together, unless the reason
-    /// may be a carriage that is still to be explained.
+    /// The smooth candidates of Hall reading and tags (is_smooth()) that are needed beside a base's other
+    /// effects, fitted at once on both halves (gap/search/everything.h). Their fits start from the base's
+    /// settings of these candidates; their settings are the last ones of `fitted`, in the order of
+    /// `candidates`. A Hall reading that is off its floor is explained first, without the tags: by candidates
+    /// without shape parameters or, if these do not come near an optimum, also by the most promising ones
+    /// with shape parameters. Once the Hall reading is not far off, the tags are explained by effects of the
+    /// camera alone. If tags remain off their floor then, both signals are explained together, unless the
+    /// carriage, whose errors also show in the tags, is still off.
     struct Together {
         std::vector<const Candidate*> candidates;
         std::vector<double> worth;  ///< loss that each saves beside the others
@@ -101,56 +104,57 @@ class Search {
     };
     Together everything_beside(const CrossFit& base);
 
-    /// everything_beside() of the tags: what the camera alone sees, unless the Hall reading is far off, and
-    /// then of both signals together where the tags are still off. No candidates where that does not come
-    /// near its optimum.
+    /// Like everything_beside(), after the Hall reading was explained: the tags by effects of the camera
+    /// alone and, if they remain off their floor, both signals together. If the Hall reading is far off, both
+    /// signals together at once; no candidates if that fit does not come near an optimum.
     Together tags_beside(const CrossFit& base);
 
-    /// An explanation like that of everything_beside(), with further effects that have shapes of their own:
-    /// all those that promise anything in one signal (the Hall reading alone, or the tags beside it), fitted
-    /// at once; or, if together they are found not to be needed, the one that promises most. The base alone
-    /// where none promises anything.
+    /// An explanation like that of everything_beside(), with effects that have shape parameters: all those
+    /// that promise to save loss in `signal`, fitted at once. If that fit finds none of them needed, the most
+    /// promising one alone. The base if none promises anything.
+    /// @param signal  Signal::hall: effects estimated from the Hall reading; Signal::tag: those of both
+    /// signals
     Together shaped_beside(const CrossFit& base, Signal signal);
 
-    /// Effects on the carriage beside a base that has none. Of the models from the balance of forces
-    /// (gap/balance/force_regression.h), and of the forms of their effects, those are taken that predict best
-    /// when the carriage is simulated, with all further smooth effects that are needed. The base alone where
-    /// there is no such model. Does not count as effort.
+    /// Effects on the carriage beside a base that has none. Regression of the balance of forces
+    /// (gap/balance/force_regression.h) gives several models; the model, and the form of its effects, that
+    /// predicts best when the carriage is simulated is taken, with all further smooth effects that are
+    /// needed. The base alone if there is no model. Does not count as effort.
     Together forces_beside(const CrossFit& base);
 
-    /// Whether the balance of forces can show a candidate (gap/balance/force_regression.h).
+    /// Whether a candidate can be found from the balance of forces (gap/balance/force_regression.h).
     bool is_force(const Candidate& candidate) const;
 
     /// The time budget.
     const Budget& budget() const { return *fitter_.evidence().budget(); }
 
-    /// How the budget ended, if it did during a refinement; what had been found until then was kept.
+    /// How the budget ended, if it ended during a fit whose best result so far was kept; otherwise empty.
     std::optional<Ended> over() const { return over_; }
 
     CrossFit nothing() const;
 
-    /// Tries all candidates except those in `added` as additions to a base. Leaders come first, those whose
-    /// gain is real before the others, and after them the rest by gain; of leaders that tie with the best, or
-    /// bring its signals to their floors, the one with the fewest parameters is first. Candidates that could
-    /// only improve signals already at their floors are not fitted.
+    /// Tries all candidates except those in `added` as additions to a base. The leaders (Trial::is_leader)
+    /// come first, those whose gain is real (is_real()) before the others, by gain; but the very first is the
+    /// one with the fewest parameters among those that tie with the best or also bring its signals to their
+    /// floors. Candidates that could improve only signals that are at their floors are not fitted.
     std::vector<Trial> try_all(const CrossFit& base, std::span<const Candidate* const> added,
                                const Effort& effort = {});
 
-    /// Scans all possible weak waves of force beside a base (gap/starts/wave_scan.h), in windows that are far
-    /// off. Returns whether one promises more than the start values known before, so that try_all would come
-    /// to another result.
+    /// Scans the whole range of periods and phases for weak force waves along the rail beside a base
+    /// (gap/starts/wave_scan.h), in windows that are far off their floors. Returns whether a wave promises
+    /// more than the start values known before, so that try_all() may give another result.
     bool scan_for_wave(const CrossFit& base, std::span<const Candidate* const> added);
 
-    /// The base with a candidate that try_all has tried beside it, fitted on both halves. Empty where no
-    /// prediction was possible, because the plant refuses the candidate or the search was stopped.
+    /// The base with a candidate that try_all has tried beside it, fitted on both halves. Empty if no
+    /// prediction was possible, because the simulator rejects the candidate or the search was stopped.
     std::optional<CrossFit> with(const CrossFit& base, const Candidate& candidate);
 
-    /// Stores the values of a candidate in a cross fit `whole`, of which it is the setting at index `at` and
-    /// the base is the rest: try_all beside this base then fits only candidates that promise about as much.
+    /// Stores a fit of a candidate beside a base: `whole` is the base with the candidate at index `at` of its
+    /// settings. try_all() beside this base then fits only candidates that promise about as much.
     void remember(const CrossFit& base, const Candidate& candidate, const CrossFit& whole, std::size_t at);
 
-    /// Refits, from their present values, the parameters of those settings that are estimated from any of the
-    /// given signals, or coupled with such settings.
+    /// Refits those settings that are estimated from any of the given signals, and the settings coupled with
+    /// them, starting from their present values.
     void fit_again(CrossFit& cross, const SignalFlags& signals) const;
 
     /// Judges a cross fit with its present values.
@@ -161,8 +165,8 @@ class Search {
     /// @param base  cross fit from which gains are counted; it lacks at least the last effect
     CrossFit closer(const CrossFit& base, CrossFit whole, const Candidate& last) const;
 
-    /// A setting as its effect's simpler form, with the candidate of that form; empty where it has none that
-    /// may be named.
+    /// The simpler form of a setting's effect, with the setting converted to it; empty if the effect has no
+    /// simpler form that may be named.
     struct PlainForm {
         const Candidate* candidate;
         plant::EffectSetting setting;
@@ -175,17 +179,16 @@ class Search {
     }
 
     /// Whether an effect is to be accepted: its gain is significant, corrected for all that was tried, and it
-    /// removes a good part of some signal's excess over its floor. The latter is needed because many an
-    /// effect gains a little where the true law, or that of another effect in the explanation, differs
-    /// slightly from the catalogue's. For the same reason an effect that leaves the signal clearly off its
-    /// floor has to remove a thousandth of the excess that the signal had before any effect. The gain need
-    /// not be significant if a signal comes to its floor, predicted by what was fitted to the other half, of
-    /// which three windows of each half, or six of one half from two runs, or the shapes of twice as many
-    /// tags were far off: that is no chance, however few windows there are.
+    /// removes a good part of some signal's excess over its floor. The latter is required because the true
+    /// law of another effect may differ slightly from the catalogue's, so that many effects gain a little.
+    /// For the same reason an effect that leaves the signal clearly off its floor has to remove a thousandth
+    /// of the excess that the signal had before any effect. The gain need not be significant if the effect
+    /// brings a signal that was far off (is_far_off()) to its floor in cross prediction; with few windows, no
+    /// gain would be significant.
     bool is_real(const CrossFit& without, const CrossFit& with) const;
 
-    /// Whether an effect's gain is significant, corrected for all that was tried, however large a gap it
-    /// leaves.
+    /// Whether an effect's gain is significant, corrected for all that was tried. Unlike is_real(), it does
+    /// not matter how much of a gap the effect removes.
     /// @param times  factor by which the significance must exceed its bound
     bool is_no_chance(const CrossFit& without, const CrossFit& with, double times = 1.0) const;
 
@@ -198,7 +201,7 @@ class Search {
     /// Signals whose r.m.s. error is more than this many floors.
     SignalFlags far_off(const CrossFit& fitted, double floors = 3.0) const;
 
-    /// The signal that is the largest number of floors off its own; empty where all are at their floors.
+    /// The signal with the largest r.m.s. error in units of its floor; empty if all are at their floors.
     std::optional<Signal> furthest_off(const CrossFit& fitted) const;
 
     /// A signal's typical error (gap/fit/gap_size.h), floors.
@@ -206,20 +209,21 @@ class Search {
         return gap::typical_floors(fitter_.evidence().windows(), fitted.mean_squares)[index_of(signal)];
     }
 
-    /// The gap over all signals, in floors (gap/fit/gap_size.h), that a setting alone would make in the rig
-    /// as its file describes it: by how much it changes the predictions.
+    /// The gap over all signals, in floors (gap/fit/gap_size.h), that would result if the rig had this effect
+    /// and nothing else that its file does not state: the change of the predictions by the effect.
     double gap_alone(const plant::EffectSetting& setting) const;
 
     /// Whether every signal is at its floor: nothing is left for another effect to explain.
     bool is_at_floor(const CrossFit& fitted) const;
 
-    /// Signals whose excess over their floors is larger than the least that a further effect has to remove.
+    /// Signals whose excess over their floors is large enough for a further effect: more than a thousandth of
+    /// the excess before any effect (see is_real()).
     SignalFlags leaves_much(const CrossFit& fitted) const;
 
-    /// Whether no signal has such an excess.
+    /// Whether leaves_much() is true of no signal.
     bool leaves_little(const CrossFit& fitted) const;
 
-    /// Whether the lead of the best cross fit over another one is not significant.
+    /// Whether the gain of the best cross fit over another one is too small to be significant.
     bool ties(const CrossFit& best, const CrossFit& other) const;
 
     struct Contender;
@@ -227,37 +231,42 @@ class Search {
   private:
     Together together(const std::array<Hypothesis, 2>& beside, NeededCandidates needed) const;
     struct EverythingBeside;
-    /// Signals of which all smooth candidates are fitted at once. Of the tags alone: the candidates that the
-    /// Hall reading does not show.
+    /// The signals whose smooth candidates are fitted at once; `tags_alone`: the candidates that do not
+    /// change the Hall reading.
     enum class SmoothSignals { hall_and_tags, hall_alone, tags_alone };
     EverythingBeside everything_of(const CrossFit& base, SmoothSignals of) const;
     Together needed_of(const EverythingBeside& all, IfFar if_far);
-    /// Where no sizes alone come near an optimum of a signal: with the shapes that promise anything, or, if
-    /// none does, as near as sizes come.
+    /// For a signal whose optimum no candidates without shape parameters come near: the result with the most
+    /// promising candidates with shape parameters; or, if these are not needed, without them, as near as that
+    /// fit comes.
     Together from_afar(SmoothSignals of, const CrossFit& base, Signal signal);
-    /// What was found of the Hall reading, with what the camera alone sees; or, where that leaves something
-    /// in the tags, both anew.
+    /// The result for the Hall reading, with the needed effects of the camera alone added. If the tags remain
+    /// off their floor, hall_and_tags() instead, where its fit comes near an optimum.
     Together view_and_wire(Together of_hall, bool is_of_view_alone);
-    /// Both signals together. No candidates where the fit does not come near its optimum.
+    /// The needed smooth candidates of both signals, fitted together. No candidates if the fit does not come
+    /// near an optimum.
     Together hall_and_tags(const CrossFit& base);
-    /// shaped_beside(), with effects that are estimated from these signals. Beside effects of the Hall
-    /// reading beside which no shape was needed before, none is looked for again.
+    /// shaped_beside(), with effects that are estimated from the signals `of`. The search for shapes in the
+    /// Hall reading is not repeated beside effects beside which none was needed before.
     Together shaped_among(SmoothSignals of, const CrossFit& base, Signal signal);
-    /// Those of all smooth candidates and of some shapes that are needed beside a base's other effects.
-    /// @param all  of Hall reading and tags beside this base
+    /// The candidates that are needed beside a base's other effects, out of all smooth ones, with `shapes` as
+    /// start settings of those that have shape parameters.
+    /// @param all  what is fitted at once beside this base
     Together needed_with(const CrossFit& base, const EverythingBeside& all, const Hypothesis& shapes);
 
-    /// Ends the search, because the budget has ended; what was found is still judged.
+    /// Ends the search because the budget has ended. What was found until then is still judged.
     void end(Ended how);
     /// Settings of waves with the periods along the rail that the errors of encoder and tags show.
     Hypothesis waves_of_reading(const CrossFit& base, std::span<const Candidate* const> candidates) const;
     Together balanced_beside(const CrossFit& base) const;
     class CloserFit;
-    /// The wave that a scan finds in those encoder windows of the first half that are far off without one
-    /// (gap/starts/wave_scan.h). Empty unless the predicted carriage runs away in a few windows, by which
-    /// alone a weak wave shows; and empty for a carriage on a belt, whose predictions cost too much.
+    /// The force wave that a scan finds (gap/starts/wave_scan.h) in those encoder windows of the first half
+    /// that are far off without a wave. Empty unless the predicted position is off by 10 mm r.m.s. in at
+    /// least three windows, since a weak wave shows only in which way a carriage takes; empty for a carriage
+    /// on a belt, whose predictions cost too much.
     std::optional<plant::EffectSetting> scanned_wave(const Hypothesis& beside, const Candidate& wave) const;
-    /// Loss that an explanation saves in those windows of the first half in which candidates are looked at.
+    /// Loss that an explanation saves relative to a base, in those windows of the first half in which the
+    /// promise of candidates is estimated.
     double gain_where_looked(const CrossFit& base, const CrossFit& explanation) const;
     Contender contender(const CrossFit& base, const Candidate& candidate);
     /// Candidates that are not `added` and may improve a signal that is off its floor.
@@ -272,15 +281,16 @@ class Search {
     void fit_first_half(const CrossFit& base, std::span<Contender* const> contenders) const;
     void judge_first_half(const CrossFit& base, Contender& contender) const;
     void fit_second_half(const CrossFit& base, Contender& contender) const;
-    /// Fits the simpler form on both halves, starting from the richer effect's fit: beside a base that was
-    /// fitted without either, it may promise nothing by itself. Keeps the earlier fit if that is better.
+    /// Fits the simpler form on both halves, starting from the richer effect's fit: from its own start
+    /// values, beside a base that was fitted without either form, it may seem to save nothing. Keeps the
+    /// earlier fit if that is better.
     void fit_plain_form(const CrossFit& base, const Contender& richer, Contender& plain) const;
     /// Fits the richer effect over the grid of its shapes, starting from its simpler form's fit: a fit from a
     /// distant start may have ended at that form. Keeps the earlier fit if that is better.
     void fit_rich_form(const CrossFit& base, const Contender& plain, Contender& richer) const;
-    /// The leaders, joined by others that are fitted now and gain enough for a leader; sorted by gain and
-    /// moved to the front.
-    /// @param fit  fits a contender if it is to be fitted, and returns whether it has
+    /// Fits further contenders; those that gain enough join the leaders. Returns the leaders, sorted by gain
+    /// and moved to the front of `all`.
+    /// @param fit  fits a contender if it should be fitted, and returns whether it was
     static std::span<Contender> with_fitted(std::span<Contender> all, std::size_t leaders,
                                             const std::function<bool(Contender&)>& fit);
     /// The leaders, joined by the simpler forms of the best one, fitted starting from it.
@@ -294,24 +304,25 @@ class Search {
     /// then most instructive; a wave by a simplex on all windows, as its loss has many minima. A simplex is
     /// also used where derivatives do not lead to the optimum: for effects of encoder and camera, because the
     /// carriage's place within its count can compensate them up to the count's end, and for effects that
-    /// remove nearly all of a signal's excess. Ends after a share of the search's effort: a single effect
-    /// that is not close by then may be a compromise of two.
-    /// @param scatters  whether a wave or a spring is also fitted from many drawn values
+    /// remove nearly all of a signal's excess. Ends after a share of the search's effort, since a single
+    /// effect that is still far from the optimum may be a compromise between two.
+    /// @param scatters  whether a wave or a spring is also fitted from many randomly drawn start values
     void fit_closer(const CrossFit& base, Contender& contender, bool scatters = true,
                     double share_of_effort = 0.25) const;
-    /// Fits also those leaders closely that come near the best, if that leaves a gap: after coarse fits only,
-    /// the true cause may rank behind an effect that imitates it. Sorts the leaders by gain.
+    /// If the best leader leaves a gap, also fits closely those leaders whose gain comes near its own: after
+    /// coarse fits only, the true cause may rank behind an effect that imitates it. Sorts the leaders by
+    /// gain.
     void fit_rivals(const CrossFit& base, std::span<Contender> leaders) const;
     /// Fits the leaders closely, with their simpler and richer forms among all contenders; afterwards the
-    /// first contender is the one to be accepted. A contender replaces another one only if it is judged
-    /// better, so that nothing is lost whenever this ends.
+    /// first contender is the one to be accepted. A contender is replaced only by a better one, so that the
+    /// best result so far is kept whenever the budget ends.
     void refine(const CrossFit& base, std::span<Contender> all, std::span<Contender> leaders,
                 const Effort& effort) const;
     /// Of the leaders, which precede all others, moves those whose gain is real before the rest.
     void put_real_ones_first(const CrossFit& base, std::span<Contender> all) const;
     Hypothesis fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
                                  double step_scales) const;
-    /// A wave or a spring, fitted from the best of many drawn values.
+    /// A wave or a spring, fitted from the best of many randomly drawn start values.
     Contender scattered(const CrossFit& base, const Contender& contender) const;
     /// Refits each half from the other half's values where these fit it better than its own.
     Contender crossed(const CrossFit& base, const Contender& contender) const;
@@ -327,28 +338,29 @@ class Search {
     double loss_on_half(std::size_t side, const Hypothesis& whole, const Candidate& taught) const;
     /// Whether a gain is significant, corrected for all that was tried.
     bool is_significant(const Comparison& comparison, double times = 1.0) const;
-    /// Whether some signal loses this share of its excess, and either comes near its floor or loses
-    /// `share_of_first` of the excess that it had before any effect.
+    /// Whether some signal loses at least this share of its excess over its floor, and either comes near its
+    /// floor or loses `share_of_first` of the excess that it had before any effect.
     bool clears_a_signal(const CrossFit& without, const CrossFit& with, double share,
                          double share_of_first = 0.0) const;
-    /// Whether a signal that was far off comes to its floor; of tags, nearly so.
+    /// Whether a signal that was far off comes to its floor; for tags, near its floor suffices.
     bool clears_what_is_far_off(const CrossFit& without, const CrossFit& with) const;
-    /// Whether a signal is off by 3 floors and more in three windows of each half, or in six of one half that
-    /// come from two runs, or in the shapes of twice as many tags. A shape, the seven values of a detection
-    /// that do not depend on where the stages are, has errors that are independent from frame to frame.
+    /// Whether a signal is off by 3 floors or more in at least three windows of each half, or in six windows
+    /// of one half that come from two recordings; for tags, also in the shapes of twice as many detections.
+    /// The shape, the seven values of a detection that do not depend on the position of the stages, has
+    /// errors that are independent from frame to frame.
     bool is_far_off(const CrossFit& cross, Signal signal) const;
-    /// For each detection of a half whose shape is far off, as predicted by the fit to the other half: its
-    /// run.
+    /// The recording of each detection of a half whose shape is far off, as predicted by the fit to the other
+    /// half.
     std::vector<std::size_t> runs_of_shapes_far_off(const CrossFit& cross, std::size_t side) const;
     /// Index, among leaders sorted by gain, of the one with the fewest parameters that ties with the best, or
-    /// brings the best one's signals to their floors, or is the best one's simpler form if the latter's gain
-    /// over it is not real. (Bristles that deflect over no distance are Coulomb friction, fitted a little
-    /// better.)
+    /// brings the best one's signals to their floors, or is a simpler form of the best one, whose additional
+    /// gain is not real. (Bristles of negligible deflection, for example, are Coulomb friction with one more
+    /// parameter to fit.)
     std::size_t simplest(std::span<const Contender> leaders) const;
 
     bool is_exhausted() const;
-    /// Throws SearchExhausted if the effort is spent: fits end at once from then on, so that their results
-    /// are worthless.
+    /// Throws SearchExhausted if the effort is spent. Fits that end after that stop at once and are
+    /// worthless.
     void throw_if_exhausted() const;
 
     const std::vector<Candidate>& candidates_;
@@ -361,7 +373,7 @@ class Search {
     CrossFitter fitter_;
     SearchMemory memory_;
     SignalExcess first_excess_;  ///< before any effect
-    /// Effects of the Hall reading beside which no shape was needed.
+    /// Effects on the Hall reading beside which no effect with shape parameters was needed.
     std::optional<std::set<const plant::Effect*>> hall_screened_beside_;
     int trials_ = 0;
 };

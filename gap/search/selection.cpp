@@ -79,14 +79,16 @@ std::vector<const Candidate*> limits_in(const Chain& chain) {
     return limits;
 }
 
-/// The chain without simpler forms, which must not be named (Candidate::is_limit).
+/// The chain without those effects that must not be named because they were tried only as the simpler form of
+/// another effect (Candidate::is_limit). The rest is fitted again.
 Chain nameable(const Search& search, Chain chain) {
     for (std::size_t k = chain.choices.size(); k-- > 0;)
         if (chain.choices[k].candidate->is_limit) chain = without(search, chain, k);
     return chain;
 }
 
-/// The same without another prediction: what is left is judged as it was beside them.
+/// Like nameable(), but nothing is fitted or predicted again: the remaining effects keep the values and the
+/// loss that the whole chain had.
 Chain nameable_as_judged(Chain chain) {
     for (std::size_t k = chain.choices.size(); k-- > 0;) {
         if (!chain.choices[k].candidate->is_limit) continue;

@@ -12,10 +12,10 @@ namespace fidservo::gap {
 
 struct Selection {
     std::vector<Choice> choices;  ///< sorted by the gap that each alone would make, largest first
-    std::vector<CrossFit> steps;  ///< cross fits with the first 0, 1, 2 ... of them
+    std::vector<CrossFit> steps;  ///< cross fits with only the first 0, 1, 2 ... of `choices`
     std::vector<Trial> alone;     ///< trials of single effects, best first
-    /// Simpler forms (Candidate::is_limit) that were accepted and left nothing unexplained; they are not
-    /// named.
+    /// Effects that were tried only as simpler forms of others (Candidate::is_limit) and accepted into an
+    /// explanation that leaves no gap. They are not named and not in `choices`.
     std::vector<const Candidate*> limits;
     /// If not finished, the search ended before everything promising was tried.
     Ended ended = Ended::finished;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How much a candidate promises, and from which values its fit should begin.
+// The promise of a candidate (the loss that it would save, estimated without a fit), and start values of its
+// fit.
 #include "gap/candidates/candidate.h"
 #include "gap/candidates/coupling.h"
 #include "gap/candidates/scaled_parameters.h"
@@ -40,17 +41,17 @@ struct Promise {
     double gain;       ///< loss that it saves, without a fit, in the counted windows
 };
 
-/// What a setting promises beside the base as it is.
+/// The promise of a setting in addition to the base, all of whose settings keep their values.
 /// @param base_squares  mean squares of the base's errors (gap/fit/score.h)
 Promise promise_of(plant::EffectSetting setting, const Predict& predict, std::span<const Window> windows,
                    const Wanted& counted, const Surroundings& beside, std::span<const double> base_squares);
 
-/// Start values of a candidate's fit, at most four, best first. At each point of its grid the sizes are found
-/// by weighted least squares of the base's errors, together with the parameters that may be refitted (since
-/// they have adapted to the missing candidate), as if errors changed linearly with all of these. Where that
-/// misleads, as with a base of which only a product of parameters is well known, the candidate is tried
-/// alone. `gain` is that of an actual prediction. Empty where the parameters that may be refitted save as
-/// much without the candidate.
+/// Start values of a candidate's fit, at most four, best first. At each point of its grid the sizes are
+/// estimated by weighted linear least squares of the base's errors, together with the base's parameters that
+/// may be refitted, since these have adapted to the absence of the candidate. If the linear estimate is bad,
+/// as with a base of which only a product of parameters is well determined, the candidate is tried without
+/// refitting the base. `gain` is computed from an actual prediction. Empty if refitting the base's parameters
+/// saves as much without the candidate.
 std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Window> windows,
                                     const Wanted& counted, const Surroundings& beside,
                                     const Candidate& candidate);

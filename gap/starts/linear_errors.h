@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Errors to first order: with the shares x_k of some changes c_k they are e + sum x_k c_k. All that is asked
-// of them follows from the inner products of e and c_k in each window, which are computed once.
+// Prediction errors to first order in the parameters: e + sum over k of x_k c_k, with c_k a change of the
+// errors, such as a step of one parameter makes, and x_k the number of such steps (its share). The loss
+// follows from the inner products of e and all c_k in each window, which are computed once.
 #include "gap/evidence.h"
 
 #include <span>
@@ -18,7 +19,7 @@ class LinearErrors {
     /// @param changes  as long as e each; values that are not finite count as 0
     LinearErrors(std::span<const Window> windows, const Errors& errors, std::vector<Errors> changes);
 
-    /// Number of changes.
+    /// The number of changes c_k.
     Eigen::Index size() const { return static_cast<Eigen::Index>(changes_.size()); }
 
     struct Optimum {

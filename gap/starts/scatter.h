@@ -10,7 +10,7 @@
 
 namespace fidservo::gap {
 
-/// Whether a candidate is such a force: a wave or a spring.
+/// Whether the loss of a candidate has many local minima: true for a wave and for a spring.
 bool has_valleys(const Candidate& candidate);
 
 /// Values of the settings at some places of a hypothesis that predict best among many drawn at random. Where

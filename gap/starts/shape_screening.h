@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Which effects with shapes of their own would explain most in addition to all smooth ones.
+// Screening: which effects with shape parameters would save most loss in addition to all smooth effects.
 //
-// Changes x of the parameters that are already there change errors e nearly linearly, to e + J x; another
-// setting of size y, whose shape is a point of its grid, to e + J x + c y. What loss that saves compared with
-// the best x alone follows without a fit, from normal equations with the windows' weights W in the loss
-// (gap/fit/fit.h):
+// Changes x of the parameters of the present explanation change its errors e nearly linearly, to e + J x; a
+// further setting of size y, whose shape is a point of its grid, changes them to e + J x + c y. The loss that
+// it saves compared with the best x alone follows without a fit, from normal equations with the windows'
+// weights W in the loss (gap/fit/fit.h):
 //
 //     H = J' W J + P,  x = -H^-1 J' W e,   h = c' W c + p - c' W J H^-1 J' W c,   g = c' W (e + J x)
 //     gain = g^2 / (2 h) at y = -g / h,  or less where that is beyond a bound
 //
-// P and p are the prior of a few typical sizes about zero. Source: orthogonal forward regression, Chen,
-// Billings, Luo, International Journal of Control 50, 1989.
+// P and p are the precisions of the prior, with a standard deviation of a few typical sizes about zero.
+// Source: orthogonal forward regression, Chen, Billings, Luo, International Journal of Control 50, 1989.
 #include "gap/candidates/candidate.h"
 #include "gap/fit/fit.h"
 
@@ -33,7 +33,7 @@ std::vector<GridPoint> grid_of(std::span<const Candidate* const> candidates);
 struct ScreenedShape {
     const Candidate* candidate;
     plant::EffectSetting setting;  ///< at the size y, within its bounds
-    double gain;                   ///< loss that it saves beside those before it, with errors linearised
+    double gain;                   ///< loss saved in addition to those before it, with errors linearised
 };
 
 /// Whether a candidate has parameters that are neither sizes nor choices nor optional.
@@ -43,11 +43,11 @@ bool has_a_shape(const Candidate& candidate);
 plant::EffectSetting of_size(const Candidate& candidate, const std::vector<double>& shape,
                              double typical_sizes);
 
-/// Candidates in the order in which each saves most beside those before it, at the point of its grid that
-/// does; only such as save anything.
+/// Forward selection: the candidates in the order in which each saves most loss in addition to those before
+/// it, at the best point of its grid. Candidates that save nothing are left out.
 /// @param predict   errors under what is known, with the given settings in addition
-/// @param windows, counted  windows whose loss is meant
-/// @param others    settings that are already there, all of whose parameters may change
+/// @param windows, counted  the windows whose loss is to be reduced
+/// @param others  settings of the present explanation, all of whose parameters may change
 /// @param scale_floors, expected_sizes  as in FitOptions
 std::vector<ScreenedShape> screened_shapes(const Predict& predict, std::span<const Window> windows,
                                            const Wanted& counted, const Hypothesis& others,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Start values of a candidate's fit: from its own grid, and from what errors show along the rail.
+// Start values of a candidate's fit: from its grid, and from periods and places on the rail that errors show.
 #include "gap/balance/patch_search.h"
 #include "gap/balance/period_search.h"
 #include "gap/candidates/candidate.h"
@@ -11,7 +11,7 @@
 
 namespace fidservo::gap {
 
-/// What errors of the encoder show along the rail.
+/// Periodic forces, springs and patches of friction along the rail that the encoder's errors show.
 struct AlongRail {
     std::vector<PositionPeriod> periods;  ///< strongest first
     /// Settings of waves of a force (gap/balance/balanced_waves.h) and of springs
@@ -25,7 +25,7 @@ struct AlongRail {
 std::vector<PositionPeriod> periods_along_rail(const Evidence& evidence, const Hypothesis& known,
                                                const Errors& errors);
 
-/// What the encoder's errors show along the rail, as far as some candidate needs it.
+/// Analyses the encoder's errors along the rail, as far as any of the candidates needs the result.
 /// @param known  the hypothesis to which the errors belong
 /// @param wanted  windows that are evaluated
 AlongRail seen_along_rail(const Evidence& evidence, const Hypothesis& known, const Wanted& wanted,

@@ -8,7 +8,7 @@
 namespace fidservo::gap {
 
 /// Start values of a candidate that has a wave, in place of at_first_sight: waves with the periods that
-/// errors show (gap/balance/period_search.h), those that promise most first.
+/// errors show (gap/balance/period_search.h), sorted by the loss that they promise to save.
 /// @param balanced  settings of waves that balance the forces (gap/balance/balanced_waves.h), of this
 /// candidate or others
 std::vector<Promise> waves_at_first_sight(const Predict& predict, std::span<const Window> windows,

@@ -27,8 +27,8 @@ struct ChoiceWeights {
     std::vector<double> of_alternatives;
 };
 
-/// @param choice     one of the explanation's. An alternative was judged in another context than the final
-/// explanation: its gain over the choice there is transferred to the explanation
+/// @param choice  an effect of the explanation. Its alternatives were judged at the step of the search at
+/// which it was accepted; their gains over it at that step are taken to hold for the final explanation, too
 /// @param explained  S_w of all windows under the whole explanation
 ChoiceWeights weights_of(const Evidence& evidence, const Choice& choice, std::span<const double> explained);
 
@@ -37,8 +37,8 @@ ChoiceWeights weights_of(const Evidence& evidence, const Choice& choice, std::sp
 double weight_of_first(const Evidence& evidence, std::span<const double> first,
                        std::span<const double> second);
 
-/// The weights of effects that were tried alone, in the order of the trials; the rest to 1 is the weight of
-/// there being none.
+/// The weights of effects that were tried alone, in the order of the trials. The weight of the explanation
+/// without any effect is 1 minus their sum.
 std::vector<double> weights_of_trials(const Evidence& evidence, const std::vector<Trial>& trials,
                                       const CrossFit& nothing);
 

@@ -27,34 +27,36 @@ using Features = std::array<double, feature_names.size()>;
 
 /// The features x_k of a named effect, each larger the stronger the evidence; logarithms are natural:
 ///   weight_logit   log(w / (1 - w)) of the weight w, -7 .. 7
-///   log_discrepancy  -log of the total gap that remains in excess of the floor, sqrt(g^2 - 1), 0.15 to 3
-///                  floors: larger gaps say no more, as the floor is that of the sensors, not of the model
+///   log_discrepancy  -log of the total gap that remains in excess of the floor, sqrt(g^2 - 1), limited to
+///                  0.15 .. 3 floors: larger gaps give no more information, as the floor is that of the
+///                  sensors, not of the model
 ///   log_own_discrepancy  the same of the error that remains in the signals that determine the effect
 ///   log_gain       log of the error without the effect over that with it, in the signals that determine it
 ///   log_gap_left   -log of the fraction of the total gap that remains, 1e-4 at least
-///   log_names      log of the number of named effects: many small ones less often stand in for another one
+///   log_names      log of the number of named effects: many small ones less often imitate another one
 ///   halves_agree   -log of the relative difference of its size between the halves, 1e-3 at least
 ///   leaves_nothing  1 if the signals that determine it come to their floors, else 0
-///   leaves_no_dependence  0 if it is found on what the errors depend that remain in one of these, else 1
+///   leaves_no_dependence  0 if a quantity is found on which the remaining errors of these signals depend,
+///                  else 1
 Features features_of(const Support& support);
 
 /// The probability by a regression with this offset and these coefficients.
 double logistic_probability(const Features& features, double offset, const Features& coefficients);
 
-/// Whether another account of the same data stands beside a named effect, with which it shares its
-/// probability: residual analysis, as for Support::is_contested; or, where a parameter is at its bound, that
-/// a rig cannot have as much of the effect as fits best. What a camera sees follows from geometry alone, so
-/// that residual analysis tells its causes apart as well as names do.
+/// Whether a named effect has to share its probability with another explanation of the same data: the result
+/// of a residual analysis (Support::is_contested), which for causes in camera and plate is as reliable as a
+/// name, since these are a matter of geometry alone; or, if a parameter is at its bound, the possibility that
+/// no rig has as much of the effect as fits best.
 bool has_a_rival(const Support& support);
 
-/// The probability by the calibrated regression, or half of it for a name that has a rival: these are too
-/// rare for the regression to learn from them.
+/// The probability by the calibrated regression, or half of it if has_a_rival(), which is too rare to be a
+/// feature of the regression.
 double calibrated_probability(const Support& support);
 
-/// Signals in which an explanation leaves something.
+/// Signals that an explanation leaves off their floors.
 struct SignalsLeft {
     SignalFlags off{};        ///< off their floors
-    SignalFlags dependent{};  ///< those of whose errors it was found on what they depend, or was not asked
+    SignalFlags dependent{};  ///< of these, those with a dependence found, or not analysed
 };
 
 /// Whether an effect displaces tags by itself: one of the camera, of what it sees, or of the encoder's
@@ -62,8 +64,8 @@ struct SignalsLeft {
 bool shows_in_view(const plant::Effect& effect);
 
 /// The evidence for each choice of a selection.
-/// @param left   by the whole explanation
-/// @param whole  what the gap depends on where nothing is named; empty where that is unknown
+/// @param left  signals that the whole explanation leaves off their floors
+/// @param whole  residual analysis of the whole gap, without named effects; empty: unknown
 std::vector<Support> supports(const Evidence& evidence, const Selection& selection,
                               const std::vector<ChoiceWeights>& weights, const SignalsLeft& left,
                               const std::optional<Remainder>& whole);

@@ -10,9 +10,9 @@
 
 namespace fidservo::gap {
 
-/// Of the candidates, those that would hardly show at their typical size: the loss that they would make, sum
-/// over windows of 1/2 log(1 + d_w), d_w the mean square change of the predictions in floors, is less than 4,
-/// what a search needs to be sure of anything.
+/// The candidates that would hardly show at their typical size: the sum over windows of 1/2 log(1 + d_w),
+/// with d_w the mean square change of the predictions in floors^2, is less than 4, which is about the loss
+/// that a search needs for a significant result.
 std::vector<const Candidate*> hidden_candidates(const Evidence& evidence, std::span<const Candidate> tried,
                                                 const Selection& selection);
 
@@ -29,8 +29,8 @@ std::vector<const Candidate*> hidden_candidates(const Evidence& evidence, std::s
 std::vector<std::string> undecided(const Evidence& evidence, std::span<const Candidate* const> hidden,
                                    const Selection& selection);
 
-/// Where a gap was found but no effect was accepted for lack of data, the reason: the effect that would
-/// remove most of the gap, at least half, with its values, or that there are few windows. Empty otherwise.
+/// If a gap was found but no effect was accepted for lack of data: a sentence with the effect that would
+/// remove most of the gap, at least half, and its values, or with the number of windows. Otherwise empty.
 std::string what_is_wanting(const Evidence& evidence, const Selection& selection);
 
 }  // namespace fidservo::gap

@@ -7,10 +7,11 @@
 
 namespace fidservo::gap {
 
-/// For each window of the encoder, whether its error above the floor is no larger than the change of its
-/// prediction (by the fit to the other half) with the window's initial position within a count. Counts do not
-/// show that position, and over a periodic force it may decide into which direction the carriage goes. The
-/// tags that are seen meanwhile are unpredictable, too.
+/// A flag for each window. An encoder window is unpredictable if its error is above the floor but not much
+/// larger than the change of its prediction (by the fit to the other half) when the window's initial position
+/// is varied within a count. Counts do not determine that position, and with a periodic force it may decide
+/// in which direction the carriage moves. Windows of tags that overlap with such a window are unpredictable,
+/// too.
 std::vector<bool> unpredictable_windows(const Evidence& evidence, const CrossFit& fitted);
 
 }  // namespace fidservo::gap

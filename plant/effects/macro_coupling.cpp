@@ -7,9 +7,9 @@ namespace fidservo::plant::effects {
 
 namespace {
 
-/// A fit that begins with much damping follows the first swings after each step of the carriage, which any
-/// frequency near the true one predicts, and lowers the damping as the frequency becomes known. Neighbours
-/// lie the width of this resonance apart, 2 zeta.
+/// Start values. A strongly damped oscillator predicts only the first swings after each step of the carriage,
+/// and predicts them at any frequency near the true one, so that a fit finds the frequency first and lowers
+/// the damping then. The frequencies of the grid differ by the relative width 2 zeta of such a resonance.
 constexpr double damping_ratios[] = {0.2};
 constexpr std::array frequencies_Hz = [] {
     constexpr double ratio = 1.0 + 2.0 * damping_ratios[0];

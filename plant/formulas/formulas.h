@@ -6,12 +6,11 @@
 // Where none acts nothing is evaluated. Memories are updated once a tick of length T, at its beginning, from
 // the site's variables x at that time, and keep their values during the tick:
 //
-//     state   z' = r(z, x), by the exponential Euler method, z += T r phi(T dr/dz), phi(a) = (e^a - 1) / a:
-//     exact
-//             where r is linear in z (Hochbruck, Ostermann, Acta Numerica 19, 2010). Starts where r = 0, as a
-//             machine does that has stood for long, or at 0
-//     play    z moves as little as keeps it within half the width of x (a play operator). Starts at x
-//     delay   what x was, by straight lines between ticks. Before the start it was what it is there
+//     state   z' = r(z, x), by the exponential Euler method, z += T r phi(T dr/dz), phi(a) = (e^a - 1) / a,
+//             which is exact if r is linear in z (Hochbruck, Ostermann, Acta Numerica 19, 2010). Its start
+//             value is that with r = 0, as of a machine that has stood for long, or else 0
+//     play    z is kept within half the width of x by the smallest motion (a play operator). Starts at x
+//     delay   x at an earlier time, linearly interpolated between ticks; before the start, x at the start
 #include "plant/formulas/formula_code.h"
 
 #include <array>

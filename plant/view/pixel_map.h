@@ -25,13 +25,13 @@ class PixelMap {
     /// The places that the pixels of row v see.
     void places(int v, std::span<double> flat_u_px, std::span<double> flat_v_px) const;
 
-    /// The range of flat rows within which everything lies that row v sees.
+    /// The range of rows of the flat picture that image row v sees.
     struct Span {
         double low_px, high_px;
     };
     Span rows_of(int v) const;
 
-    /// The box within which everything lies that the image sees.
+    /// The bounding box, in the flat picture, of all places that the image sees.
     const Eigen::AlignedBox2d& view() const { return view_; }
 
   private:

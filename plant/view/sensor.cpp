@@ -26,7 +26,7 @@ std::uint8_t to_grey(float level) {
 constexpr int lanes = 4;
 using Lanes = std::uint32_t __attribute__((vector_size(lanes * sizeof(std::uint32_t))));
 
-/// Four generators side by side.
+/// Four independent random generators, one in each lane.
 struct Generators {
     Lanes a{}, b{}, c{}, d{};
 

@@ -33,9 +33,9 @@ class SignalGap:
     after: float
     """With the effects found."""
     discrepancy: float
-    """Of `after`, what no named effect explains, beyond what noise leaves."""
+    """The part of `after` that neither the named effects nor noise explain."""
     floor: float
-    """Under the truth: noise and quantisation."""
+    """The error that a perfect model would leave: noise and quantisation."""
 
 
 @dataclass(frozen=True)
@@ -156,7 +156,7 @@ class Diagnosis:
     where: tuple[BlockProbability, ...]
     """Most likely first."""
     effects: tuple[FoundEffect, ...]
-    """First the one that alone would make the largest gap."""
+    """Sorted by the gap that each alone would cause, largest first."""
     candidates: tuple[TriedEffect, ...]
     """Every effect that was tried, most likely first."""
     gap: TotalGap

@@ -11,8 +11,8 @@ namespace fidservo::fleet {
 struct Campaign {
     std::string noted;    ///< its path as results note it (noted_path)
     std::string content;  ///< SHA-256 of its recordings' files
-    /// The unit, the beginning of the first recording, and those labels on which all recordings that have
-    /// them agree.
+    /// The unit, the start of the first recording, and the labels; a label on which recordings differ is left
+    /// out.
     RecordingOrigin origin;
     std::string fault;  ///< why it cannot be diagnosed: no recording, no statements in it, or two units
 };

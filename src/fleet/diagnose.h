@@ -17,8 +17,8 @@ struct DiagnoseRequest {
     RunOptions run;
 };
 
-/// Diagnoses each campaign that has no result yet, in one thread each, its budget counted in effort. Throws
-/// InputError where something that was given is wrong or not there, before the first task.
+/// Diagnoses each campaign that has no result yet, each in one thread, with a budget measured in computing
+/// effort. Throws InputError before the first task if an argument is wrong or a file does not exist.
 /// @return the exit code, of run_fleet()
 int diagnose_fleet(const DiagnoseRequest& request);
 

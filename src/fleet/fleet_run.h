@@ -25,7 +25,8 @@ struct RunOptions {
     std::uint64_t memory_mb = 2000;  ///< limit for a task
 };
 
-/// Throws InputError where FLEET is not what it has to be.
+/// Opens the results of the folder FLEET. Throws InputError if it does not exist although `resume` is set, or
+/// cannot be used.
 ResultStore open_store(const RunOptions& options);
 
 /// Whether a result's text says that its task failed, and why; empty: it was done. Throws RunFault where the
@@ -53,8 +54,8 @@ struct FleetEnd {
 /// How a fleet's processes work.
 WorkerOptions worker_options(const RunOptions& options);
 
-/// Does a share of tasks in processes, shows how far they are, says each that has no good result, and counts
-/// them at the end. Ends early where the user wants it.
+/// Runs the tasks of a shard in processes, shows the progress, reports each task that failed or has no
+/// result, and prints the counts at the end. Ends early if the user interrupts it.
 /// @param what     "campaigns"
 /// @param name_of  what a task is about, for people
 FleetEnd run_fleet(const ResultStore& store, const RunOptions& options, const std::string& what,

@@ -17,16 +17,17 @@ namespace fidservo::fleet {
 struct ReplayRequest {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path rig_file;
-    bool rig_is_given = false;  ///< images of the rig camera's size are taken by that camera
+    bool rig_is_given = false;  ///< whether images of the rig camera's size count as taken by that camera
     NameTimes name_times = NameTimes::automatic;
     vision::TagReading reading;  ///< how tags are to be read
     RunOptions run;
 };
 
-/// Finds the tags in each stretch that has no result yet, in one thread each. Once all stretches have one,
-/// whichever share made them, writes FLEET/detections.csv and FLEET/displacements.csv, to the byte those of
-/// one `replay` of all inputs: displacements count from where a tag was first seen, which may be in an
-/// earlier stretch, so a result holds the tags' places, and they are counted here. Throws InputError.
+/// Finds the tags in each stretch that has no result yet, in one thread each. Once all stretches have a
+/// result, of whatever shard, writes FLEET/detections.csv and FLEET/displacements.csv, byte for byte as a
+/// single `replay` of all inputs would. Displacements are relative to a tag's first detection, which may be
+/// in an earlier stretch; the results therefore contain positions, and displacements are computed here.
+/// Throws InputError.
 /// @param rig  of the request's rig file; it has fiducials
 /// @return the exit code, of run_fleet()
 int replay_fleet(const ReplayRequest& request, const Rig& rig);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The results of a fleet: a folder in which each result appears complete and only once, whatever else writes
-// there.
+// The results of a fleet: a folder in which each result appears only once and only when it is complete, even
+// if several processes write there at a time.
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -27,9 +27,9 @@ struct ResultName {
 /// The stem of such a file's name; empty: it is no result.
 std::string stem_of_result(const std::string& file);
 
-/// FLEET/results. Several processes, on several machines that share the folder, may use it at a time: a
-/// result is written under a name of its own, brought to the disk, and linked to its final name, which is
-/// made by the first writer only.
+/// FLEET/results. Several processes, also on several machines that share the folder, may use it at a time: a
+/// result is written to a file of a unique name, flushed to the disk, and then hard-linked to its final name,
+/// which only the first writer can create.
 class ResultStore {
   public:
     /// Makes the folder if it is not there, and looks at what is in it. Throws InputError if it cannot be
@@ -38,16 +38,16 @@ class ResultStore {
 
     const std::filesystem::path& folder() const { return folder_; }
 
-    /// The text of a result; empty: there is none. One that was superseded is taken back.
+    /// The text of a result; empty if there is none. A result in FLEET/superseded is moved back.
     std::optional<std::string> find(const ResultName& name) const;
 
-    /// Writes a result. One that is there with the same bytes is left as it is. What the same task has left
-    /// from other inputs goes to FLEET/superseded, so that results has one for each task. Throws RunFault if
-    /// the disk does not take it, or if it is there with other bytes.
+    /// Writes a result, unless it exists with the same bytes. Results of the same task from other inputs are
+    /// moved to FLEET/superseded, so that FLEET/results has one result for each task. Throws RunFault if it
+    /// cannot be written, or if it exists with other bytes.
     void publish(const ResultName& name, std::string_view text) const;
 
-    /// Removes drafts that a process of this program left when it was killed: its own, and of others those
-    /// whose result is there. Those of a writer at work stay.
+    /// Removes unfinished files that were left by killed processes: those of this run, and those of other
+    /// runs whose result exists. Files that another process may still be writing stay.
     void sweep() const;
 
   private:

@@ -7,14 +7,14 @@
 
 namespace fidservo::fleet {
 
-/// The K-th of N shares: of tasks that are numbered from 0, those whose number leaves K - 1 when divided by
-/// N. Neighbours, which take about as long, go to different shares. All shares together have each task once.
+/// The K-th of N shares: the tasks whose number, counted from 0, is K - 1 modulo N. Neighbouring tasks, which
+/// usually take about the same time, are thus in different shares. Each task is in exactly one share.
 struct Shard {
     std::size_t number = 1;  ///< K, 1 to N
     std::size_t of = 1;      ///< N
 };
 
-/// Of "K/N". Throws InputError where it is none.
+/// Parses "K/N". Throws InputError if the text is not of this form.
 Shard parse_shard(const std::string& text);
 
 /// The numbers of a share's tasks, in order.

@@ -9,8 +9,7 @@
 
 namespace fidservo::fleet {
 
-/// Largest number of images in a stretch; for videos it is larger, as frames can only be decoded after those
-/// before them.
+/// Largest number of images in a stretch; larger for videos, whose frames can be decoded only in order.
 inline constexpr std::size_t images_a_stretch = 1000, pictures_a_stretch = 10'000;
 
 /// A series of consecutive images.
@@ -25,9 +24,9 @@ struct Stretch {
     std::string stem() const;
 };
 
-/// Cuts each folder, recording or video, and the images that were given by name, by itself; series of a
-/// single image that follow one another are taken together. That depends on nothing else: the same images
-/// give the same stretches.
+/// Divides each folder, recording and video separately, and likewise the images that were given by name;
+/// consecutive series of a single image are joined first. The stretches depend on the images only, not on the
+/// number of processes.
 std::vector<Stretch> stretches_of(const std::vector<ImageFrames::Series>& series);
 
 }  // namespace fidservo::fleet

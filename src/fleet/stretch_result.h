@@ -12,18 +12,18 @@
 
 namespace fidservo::fleet {
 
-/// Of a frame: an object with "time_ns" where it has a time, and either "damage", or "detections" (rows of
-/// detections.csv without the first column) and "places", [tag, u, v, variances, side, its std] each. Numbers
-/// read back as they were.
+/// The JSON object of a frame: "time_ns" if it has a time, and either "damage", or "detections" (rows of
+/// detections.csv without the first column) and "places", each [tag, u, v, variances, side, the side's std].
+/// Numbers are written such that they are read back without loss.
 nlohmann::ordered_json frame_json(const FrameResult& result, const std::string& damage);
 
-/// The same taken back.
+/// What frame_json() has stored.
 struct FrameFound {
     ImageFrame frame;  ///< without name and image
     std::vector<std::string> detections;
     std::vector<vision::TagPlace> places;
 };
-/// Throws nlohmann::json::exception where it is none.
+/// The inverse of frame_json(). Throws nlohmann::json::exception if the object is not of this form.
 FrameFound frame_found(const nlohmann::json& json);
 
 }  // namespace fidservo::fleet

@@ -11,9 +11,9 @@ namespace fidservo::fleet {
 /// two names, so that results say nothing of the machine.
 std::string noted_path(const std::filesystem::path& given);
 
-/// A noted path as part of a file's name, another one for any other path: / becomes +; letters, digits, - _
-/// and . stay; any other byte, and a . at the beginning, becomes %XX. Of more than 120 bytes the last are
-/// kept, and the whole is told apart by digits of its SHA-256 in front.
+/// A noted path as part of a file's name, unique for each path: / becomes +; letters, digits, - _ and . stay;
+/// any other byte, and a . at the beginning, becomes %XX. If it is longer than 120 bytes, only its end is
+/// kept, with digits of the SHA-256 of the whole in front.
 std::string file_stem(const std::string& noted);
 
 }  // namespace fidservo::fleet

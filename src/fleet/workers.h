@@ -46,13 +46,13 @@ struct WorkerCount {
     std::size_t ended() const { return made + failed + was_made + was_failed + undone; }
 };
 
-/// Does tasks, some at a time, each in a process that is forked for it and works in one thread: whatever it
-/// does to its memory, and however it ends, the others go on, and what it took is free afterwards. A process
-/// that a signal ends is started again, three times in all; a task is then left undone if the signal came
-/// from outside (SIGKILL, SIGTERM, ...), and its crash is its result if it was the program's own (SIGSEGV,
-/// SIGABRT, ...). More memory than is allowed, and a disk that fails, leave a task undone, too. Processes end
-/// with the caller, even if that is killed. Asked for an end, it kills those at work: their tasks have no
-/// result yet. The caller has one thread.
+/// Runs tasks, several at a time, each in its own forked process with one thread, so that a crash or a memory
+/// leak of one task does not affect the others. If a signal ends a process, the task is tried again, three
+/// times in all. After that, the crash is the task's result if the signal came from the program itself
+/// (SIGSEGV, SIGABRT, ...); the task is left undone if it came from outside (SIGKILL, SIGTERM, ...). A task
+/// is also left undone if it needs more memory than is allowed or if the disk fails. The processes end with
+/// the caller, even if the caller is killed. On an interruption the running processes are killed; their tasks
+/// have no result. The caller must have only one thread.
 /// @param ended  called for each task that has ended
 WorkerCount run_in_processes(std::span<const std::size_t> tasks, const TaskWork& work,
                              const WorkerOptions& options,

@@ -26,9 +26,9 @@ struct Assembled {
     std::vector<std::string> notes;        ///< how each signal was treated, one line each
 };
 
-/// Rows are those of the logs where all columns have the same times, a tick apart; otherwise they are a tick
-/// apart over the time that all columns share: readings on lines between their samples, commands and
-/// setpoints held. A row that falls into a reading's gap is left out. Throws InputError.
+/// If all columns have the same times, a tick apart, the rows are those of the logs. Otherwise the rows are a
+/// tick apart over the time that all columns cover; readings are interpolated linearly, commands and
+/// setpoints are held. A row within a gap of a reading is left out. Throws InputError.
 Assembled assemble(const std::vector<Log>& logs, const ImportMap& map);
 
 }  // namespace fidservo::imports

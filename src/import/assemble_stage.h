@@ -6,9 +6,9 @@
 
 namespace fidservo::imports {
 
-/// Where all columns have the same times, a tick apart, rows are those of the log; otherwise all are
-/// resampled to rows a tick apart (docs/import.md). Finds the tick where the map does not state it. Samples
-/// of a reading without a number count as missing. Throws InputError.
+/// If all columns have the same times, a tick apart, the rows are those of the log; otherwise all columns are
+/// resampled to rows a tick apart (docs/import.md). The tick is estimated if the map does not state it. NaN
+/// samples of a reading count as missing. Throws InputError.
 void add_stage(SignalSource& source, const ImportMap& map, Assembled& made);
 
 }  // namespace fidservo::imports

@@ -8,7 +8,7 @@
 
 namespace fidservo::imports {
 
-/// A signal on its own clock; times rise, s.
+/// A signal with increasing times, s, on its own clock.
 struct MotionTrack {
     std::vector<double> time_s;
     std::vector<double> value;
@@ -18,19 +18,19 @@ struct MotionTrack {
 struct ClockFit {
     double offset_s = 0.0, offset_std_s = 0.0;
     double rate_ppm = 0.0, rate_std_ppm = 0.0;
-    /// Correlation of the two signals after the fit; negative where one is inverted.
+    /// Correlation of the two signals after the fit; negative if one of them is inverted.
     double correlation = 0.0;
 };
 
-/// Looks for the lag of largest correlation r over lags that leave half of the shorter track in common, then
-/// for the least squares of x(s(t)) - a y(t) - b over offset, rate, a and b (Gauss-Newton). Standard
-/// deviations count the residuals' correlation from sample to sample, (1 + rho) / (1 - rho).
+/// Finds the lag of largest correlation r among the lags at which the tracks overlap by at least half of the
+/// shorter one, then minimises the squares of x(s(t)) - a y(t) - b over offset, rate, a and b (Gauss-Newton),
+/// with x the reference, y the track and s(t) the fitted time. Standard errors include the factor (1 + rho) /
+/// (1 - rho) on the variances for the residuals' correlation rho from sample to sample.
 ///
-/// Valid for rates by which the tracks drift apart by less than their motion's time scale. The error says
-/// why there is no answer: too few samples, no motion, no common motion (the correlation is not above what
-/// independent signals of as many independent samples reach once in 100 looks over all lags), another lag
-/// whose correlation is not significantly lower (Fisher's z, one in 100), as in a periodic motion, or an
-/// offset that is less certain than the motion's time scale.
+/// Valid for rates by which the tracks drift apart by less than their motion's time scale. The error says why
+/// there is no result: too few samples, no motion, no common motion (the largest correlation over all lags is
+/// not significant at 1 %), another lag whose correlation is not significantly lower (Fisher's z, 1 %), as in
+/// a periodic motion, or a standard error of the offset above the motion's time scale.
 tl::expected<ClockFit, std::string> fit_clock(const MotionTrack& track, const MotionTrack& reference);
 
 }  // namespace fidservo::imports

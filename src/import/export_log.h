@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Exports a recording as signals for other programs, with the map by which an import restores it.
+// Exports a recording as signals for other programs, with the map with which `import` restores the recording.
 #include "src/import/log.h"
 
 #include <filesystem>
@@ -16,9 +16,9 @@ std::string exported_name(std::string_view title);
 
 enum class ExportFormat { mat, hdf5, csv };
 
-/// Writes FILE; as CSV also FILE's stem with -detections.csv, where there are some, and with .map.yaml. The
-/// others carry the map, and a plate file. Throws InputError: the recording, or a file that exists; RunFault
-/// if the disk does not take it.
+/// Writes FILE. For CSV, the detections, if there are any, and the map are written to STEM-detections.csv and
+/// STEM.map.yaml beside it; the other formats contain the map and the plate file. Throws InputError if the
+/// recording is not valid or a file exists; RunFault if the disk fails.
 /// @return sentences on what was written
 std::vector<std::string> export_recording(const std::filesystem::path& recording, ExportFormat format,
                                           const std::filesystem::path& file);

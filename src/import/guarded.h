@@ -16,8 +16,8 @@ struct ReadingLimits {
     unsigned processor_s = 120;
 };
 
-/// The log that the reader returns, without cameras. Throws InputError "FILE: ..." with the reader's message,
-/// or with how its process ended. Ctrl-C ends the process.
+/// The log that the reader returns, without its cameras. Throws InputError "FILE: ..." with the reader's
+/// error or the reason why its process ended. Ctrl-C ends the process.
 Log read_guarded(const std::filesystem::path& file, LogReader reader, const ReadingLimits& limits = {});
 
 }  // namespace fidservo::imports

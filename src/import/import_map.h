@@ -20,7 +20,7 @@ inline constexpr std::string_view map_format = "fidservo-map/1";
 /// A signal of the log with its conversion.
 struct SignalChoice {
     std::string signal;
-    std::string unit;     ///< empty: as the file states
+    std::string unit;     ///< of the signal; empty: the unit that the log file states
     double factor = 1.0;  ///< recording's units per unit of the signal, applied after any conversion
     bool has_factor = false;
     double offset = 0.0;             ///< in the recording's unit, added after the factor
@@ -67,7 +67,8 @@ struct ImportMap {
     const ClockChoice* clock(std::string_view name) const;
 };
 
-/// Throws InputError "FILE:LINE: KEY: ..." on anything but a whole map.
+/// Reads a map. Throws InputError "FILE:LINE: KEY: ..." if it is incomplete or has an unknown key or a wrong
+/// value.
 ImportMap load_import_map(const std::filesystem::path& file);
 /// The same from text; `file` appears in messages, and paths are relative to its folder.
 ImportMap parse_import_map(const std::string& text, const std::filesystem::path& file);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How alike two signals are at every lag between them, and the lags at which they are most alike.
+// The correlation of two signals as a function of the lag between them, and its maxima.
 #include <cstddef>
 #include <vector>
 
 namespace fidservo::imports {
 
-/// Pearson's correlation r of y[i] and x[i + lag], at each lag that leaves half of the shorter signal in
-/// common; 0 where one of the two does not move.
+/// Pearson's correlation r of y[i] and x[i + lag], at each lag at which the signals overlap by at least half
+/// of the shorter one; 0 where one of them is constant.
 struct LagScan {
     std::ptrdiff_t first = 0;   ///< lag of correlation[0]
-    std::ptrdiff_t common = 0;  ///< samples that any lag has in common at least
+    std::ptrdiff_t common = 0;  ///< least number of overlapping samples at any lag
     std::vector<double> correlation;
 };
 
@@ -19,8 +19,8 @@ LagScan scan_lags(const std::vector<double>& y, const std::vector<double>& x);
 /// A maximum of |r|.
 struct LagPeak {
     std::size_t at = 0;  ///< index in LagScan::correlation
-    /// How far |r| falls at least on the way to any higher maximum (topological persistence); all of its
-    /// height for the highest one.
+    /// The least drop of |r| on the way to any higher maximum (topological persistence); for the highest
+    /// maximum, its height.
     double prominence = 0.0;
 };
 

@@ -16,10 +16,10 @@
 
 namespace fidservo::imports {
 
-/// The largest number of values that is read from one file: 2 GiB of them.
+/// The largest number of values that is read from one file (2 GiB).
 inline constexpr std::uint64_t most_values = std::uint64_t{1} << 28U;
 inline constexpr std::size_t most_signals = 10'000;
-/// The largest number of columns of one array that are taken as signals.
+/// The largest number of columns of an array whose columns become signals.
 inline constexpr std::size_t most_columns = 1'000;
 
 struct LoggedSignal {
@@ -64,7 +64,7 @@ using LogOrFault = tl::expected<Log, std::string>;
 inline constexpr const char* map_text = "fidservo_map";
 inline constexpr const char* plate_text = "fidservo_plate";
 
-/// Why an array of so many numbers is passed over: the file would have more than most_values.
+/// The message for an array of `count` numbers that is skipped, because the file would exceed most_values.
 std::string too_many_numbers(std::uint64_t count);
 
 /// The text with control characters, which move a terminal's cursor or break a line, written as \x1B.
@@ -73,13 +73,14 @@ std::string with_visible_controls(std::string_view text);
 /// The unit that a name ends in, as a table's title does (title_parts()); a number in brackets is an index.
 std::string unit_of_name(std::string_view name);
 
-/// Takes units in brackets off the ends of signals' names, as tables' readers do: "/log/x [mm]" becomes
-/// "/log/x", and "/log/x [mm][2]" "/log/x[2]". Names that would be the same keep theirs, as do signals with a
-/// fault.
+/// Removes units in brackets from the ends of signals' names, as the reader of tables does: "/log/x [mm]"
+/// becomes "/log/x", and "/log/x [mm][2]" becomes "/log/x[2]". Signals whose names would become equal keep
+/// them, and so do signals with a fault.
 void take_units_off_names(Log& log);
 
 /// Adds the columns of an array as signals NAME[1], NAME[2], ..; a single column as NAME.
-/// @param at  the value of row i in column k
+/// @param like  name and other properties of the signals
+/// @param append  appends the value of a row and column to a signal
 void add_columns(Log& log, const LoggedSignal& like, std::size_t rows, std::size_t columns,
                  const std::function<void(LoggedSignal&, std::size_t row, std::size_t column)>& append);
 

@@ -9,13 +9,13 @@
 
 namespace fidservo::imports {
 
-/// MATLAB's .mat, HDF5, rosbag2 (.db3, or its folder), a folder as EuRoC's, or a text table. Throws
-/// InputError "FILE: ..." on what it cannot read; for formats that only other programs read, with how to
-/// convert them. Control characters in names are written as \x0A.
+/// Reads MATLAB's .mat, HDF5, rosbag2 (.db3 or the bag's folder), a folder in EuRoC's format, or a text
+/// table. Throws InputError "FILE: ..." if the file cannot be read; for known formats of other programs the
+/// message says how to convert them. Control characters in names are written as \x0A.
 /// @param table  the user's statements about a text table
 Log read_log(const std::filesystem::path& file, const TableOptions& table);
 
-/// All files of a run; .db3 files of one bag are one log.
+/// Reads all files of a run; the .db3 files of one bag become one log.
 std::vector<Log> read_logs(const std::vector<std::filesystem::path>& files, const TableOptions& table);
 
 }  // namespace fidservo::imports

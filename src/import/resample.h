@@ -16,24 +16,26 @@ TimeNs median_interval(std::span<const TimeNs> time_ns);
 /// Whether 99 % of the intervals are a whole number of ticks, within 1 % of a tick.
 bool is_steady(std::span<const TimeNs> time_ns, TimeNs tick_ns);
 
-/// The tick that a clock of a usual rate has, if one is within a tenth of a per cent of an interval: a whole
-/// number of hertz, or a number of seconds with three digits, whichever is nearer; otherwise the interval, s.
+/// The nearest usual tick, s: one of a whole number of hertz, or of a number of seconds with three digits. If
+/// none is within 0.1 % of the interval, the interval itself.
 double nearby_tick_s(TimeNs interval_ns);
 
-/// An interval longer than this many usual ones is a gap; usual is what this share of all do not exceed.
+/// An interval is a gap if it is longer than gap_in_intervals times the usual interval, which is the
+/// usual_share quantile of all intervals.
 inline constexpr double gap_in_intervals = 1.5, usual_share = 0.95;
 
 /// A signal's value at a row's time.
 struct RowValue {
     double value = 0.0;
-    bool is_in_gap = false;  ///< with interpolation: the samples on both sides are too far apart
+    bool is_in_gap = false;  ///< whether the row lies in a gap between two samples; only with interpolation
 };
 
 /// Evaluates a signal at increasing times. Between two samples it is interpolated linearly, or held at the
 /// earlier one, as a converter holds its output. An interpolated value is NaN if a neighbouring sample is.
 class Resampler {
   public:
-    /// Keeps references. @param time_ns  rising, one at least
+    /// Refers to its arguments, which must outlive it.
+    /// @param time_ns  increasing; at least one
     Resampler(const std::vector<TimeNs>& time_ns, const std::vector<double>& values, Between between);
     /// @param at_ns  from the first time to the last
     RowValue at(TimeNs at_ns);

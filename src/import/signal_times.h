@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The logs' signals that a map names: converted to the recording's units, with times on its clock.
+// The signals of the logs that a map names, converted to the recording's units and clock.
 #include "src/import/import_map.h"
 #include "src/import/log.h"
 
@@ -19,21 +19,21 @@ struct TimedSignal {
     std::vector<double> values;
 };
 
-/// The transformation of a clock's times: t + offset + rate 1e-6 (t - first).
+/// The conversion of a clock's times t, s, to the recording's clock: t + offset + rate 1e-6 (t - first).
 struct ClockShift {
     double offset_s = 0.0, rate_ppm = 0.0;
-    std::optional<TimeNs> first_ns;  ///< earliest time of what the map takes from the clock
+    std::optional<TimeNs> first_ns;  ///< earliest time among the map's signals on this clock
 };
 
-/// The logs of one run with the map.
+/// Gives the signals of the logs of one run, by the map.
 class SignalSource {
   public:
     /// Fits the clocks for which the map asks; notes() tells the results. Throws InputError.
     SignalSource(const std::vector<Log>& logs, const ImportMap& map);
 
     /// @param target_unit  the recording's; empty: values are not converted
-    /// @param may_repeat  whether a time may occur more than once Throws InputError that names the map's
-    /// line, or the file and the row.
+    /// @param may_repeat  whether a time may occur more than once
+    /// @throws InputError with the map's line, or with the file and the row
     TimedSignal timed(const SignalChoice& choice, std::string_view target_unit, bool may_repeat = false);
     /// Transforms times of a clock to the recording's.
     std::vector<TimeNs> on_recording_clock(std::vector<TimeNs> time_ns, const std::string& clock);
@@ -46,7 +46,7 @@ class SignalSource {
     };
     Found find(const std::string& name, const YamlValue& where) const;
     std::vector<TimeNs> raw_times(const Found& found, const ClockChoice* clock, const YamlValue& where) const;
-    /// The map's clock for a choice; nullptr: its own times, or none.
+    /// The map's clock with this name; nullptr if the signal has its own times, or none.
     const ClockChoice* clock_of(const std::string& name) const;
     void fit(std::size_t clock);
     void find_first_time(std::size_t clock);

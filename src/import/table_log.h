@@ -8,9 +8,10 @@
 
 namespace fidservo::imports {
 
-/// A signal for each column, named by its title without the unit, or by its number where it has none: "3". A
-/// column of times of day is in seconds from the first row's. Empty fields are NaN. Throws InputError
-/// "FILE:LINE: ..." where it is no table; what is wrong in one column alone is that signal's fault.
+/// A signal for each column, named by the column's title without its unit, or by the column's number, such as
+/// "3", if it has no title. Times of day are converted to seconds since the first row. Empty fields are NaN.
+/// Throws InputError "FILE:LINE: ..." if the file is no table; an error in a single column becomes
+/// LoggedSignal::fault of its signal.
 Log read_table_log(const std::filesystem::path& file, const TableOptions& options);
 
 }  // namespace fidservo::imports

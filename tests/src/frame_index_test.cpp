@@ -149,7 +149,7 @@ TEST_F(FrameIndex, RecordingsOwn_StayStrictButForMarkAndLineEnds) {
     EXPECT_THAT(refusal(rows()), HasSubstr("unknown"));
 }
 
-// --- Many at random
+// --- Random indices
 
 struct DrawnIndex {
     std::string text;

@@ -55,7 +55,7 @@ CameraGeometry camera_as_it_comes() {
     return camera;
 }
 
-/// The tag, turned by phi where it lies, as the camera at (s, y) sees it.
+/// The exact image of a tag that is rotated by phi, rad, about its centre, from the camera position (s, y).
 RefinedTag exact_picture(const CameraGeometry& camera, const PlateTag& tag, const Eigen::Vector2d& camera_mm,
                          double phi) {
     const PlateTag moved{tag.id, tag.centre_mm - Eigen::Vector2d(0.0, camera_mm.y()), tag.side_mm,

@@ -33,7 +33,7 @@ std::vector<NominalEdge> edges_of_rectangle(const Eigen::Vector2d& centre_mm, co
     return edges;
 }
 
-/// A piece of a direction, from low to high.
+/// An interval of the coordinate along a direction on the plate, mm.
 struct Interval {
     double low;
     double high;

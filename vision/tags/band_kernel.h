@@ -10,7 +10,7 @@
 namespace fidservo::vision::kernel {
 
 /// The neighbourhood of one crossing of the code's grid lines, half a cell to each side. With the edge
-/// profiles A(x) and B(y) of the two lines, the coverage by white there is
+/// profiles A(x) and B(y) of the two lines, the fraction of white at a point of it is
 ///
 ///     c + cx A + cy B + cxy A B
 struct Node {
@@ -19,7 +19,7 @@ struct Node {
     float px_per_cell_x;                  ///< distance in the image from the line x = const, px per cell
     float px_per_cell_y;
     float c, cx, cy, cxy;
-    /// 1 where the line x = const separates black from white, above and below the crossing; else 0.
+    /// 1 if the line x = const separates black from white above (below) the crossing, otherwise 0.
     float edge_up, edge_down;
     float edge_left, edge_right;  ///< the same for the line y = const, left and right of the crossing
     /// Number of white cells whose corner projects here less that of black ones; 2 where cells touch
@@ -27,7 +27,8 @@ struct Node {
     float corners;
 };
 
-/// Which of a crossing's two lines the pixels are near. Of a line that is not near only the side matters.
+/// Which of a crossing's two lines is within reach of the block's pixels. The profile of the other line is
+/// constant there, 0 or 1 (Block::far_level).
 enum class Near { both, line_x, line_y };
 
 /// Largest number of pixels that are judged and weighted together.
@@ -102,12 +103,13 @@ struct Sums {
 /// @param residuals  receives each block's residuals; may be null, and then blocks of weight 0 are skipped
 using AddBand = void (*)(std::size_t geometry, const Band& band, const Constants& constants,
                          Residuals* residuals, Sums& sums);
-/// Adds up over the crossings the outer products of a crossing's sum of columns times residual.
+/// Adds, for every crossing, the outer product s s^T to the sums, with s the sum of columns times residual
+/// over its pixels.
 using AddScatter = void (*)(std::size_t geometry, const Band& band, const Constants& constants, Sums& sums);
 
 void add_band_plain(std::size_t, const Band&, const Constants&, Residuals*, Sums&);
 void add_scatter_plain(std::size_t, const Band&, const Constants&, Sums&);
-/// For processors with 256-bit vectors and fused multiply-add; only where has_wide_vectors().
+/// For processors with 256-bit vectors and fused multiply-add; may be called only if has_wide_vectors().
 void add_band_wide(std::size_t, const Band&, const Constants&, Residuals*, Sums&);
 void add_scatter_wide(std::size_t, const Band&, const Constants&, Sums&);
 bool has_wide_vectors();

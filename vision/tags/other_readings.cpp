@@ -20,7 +20,8 @@
 namespace fidservo::vision {
 namespace {
 
-/// A larger book of ArUco's begins with the smaller ones of as many cells.
+/// Whether a family contains all codes of a smaller one: each of ArUco's dictionaries begins with the codes
+/// of the smaller dictionaries with the same number of cells.
 bool contains(const TagFamily& larger, const TagFamily& family) {
     return larger.layout == family.layout && larger.size() > family.size() &&
            std::ranges::equal(larger.codes.first(family.codes.size()), family.codes);

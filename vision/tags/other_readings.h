@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// For images in which no tags, or few, were found: which other readings find tags in them, and what the
-// images look like.
+// Help for images in which no or few tags were found: other families, borders, inversions or mirrorings that
+// find tags in them, and statistics of the images.
 #include "vision/tags/tag_book.h"
 
 #include <cstddef>
@@ -34,8 +34,8 @@ struct ImagesSeen {
 struct OtherReadings {
     std::size_t images = 0;
     std::size_t tags = 0;  ///< number found with the reading that was asked for
-    /// The readings that find more tags than that: the best one, or several that find as many. Of readings of
-    /// the same squares it is the one whose patterns are likeliest in comparison with chance.
+    /// The readings that find more tags than `tags`: the best one, or several that find equally many. Among
+    /// readings that decode the same squares, the one whose matches are least likely by chance is taken.
     std::vector<TriedReading> better;
     ImagesSeen seen;
 };
@@ -43,16 +43,16 @@ struct OtherReadings {
 /// Whether the image has at least twice as many squares that look like tags as tags were found.
 bool looks_unread(const cv::Mat& image, std::size_t tags_found);
 
-/// Looks for all families, with borders of one and two cells, as printed and inverted, upright and mirrored;
-/// whatever appears to be there is then searched for alone, as a user would. Images of more than three
-/// million pixels are reduced. Takes some ten times as long as one search: a second for a few images of a
-/// million pixels.
+/// Tries all families, with borders of one and two cells, as printed and inverted, upright and mirrored. Each
+/// reading that seems to find tags is then searched for alone, as a user would do it. Images of more than
+/// three million pixels are reduced. Takes about ten times as long as one search: a second for a few images
+/// of a million pixels.
 /// @param images  CV_8UC1
-/// @param tags    what a thorough search for `tried` found in them, if that is known
+/// @param tags  the number of tags that a thorough search for `tried` has found in them, if it is known
 OtherReadings try_other_readings(std::span<const cv::Mat> images, const TagReading& tried,
                                  std::optional<std::size_t> tags = {});
 
-/// The images' statistics and, of the known causes for missing tags, those that apply; one line.
+/// The images' statistics, and those of the known causes of missing tags that apply, in one line.
 std::string text_of(const ImagesSeen& seen, const TagReading& tried);
 
 }  // namespace fidservo::vision

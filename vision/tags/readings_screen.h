@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Tries many readings of tags at a time.
+// Tries many readings of tags (family, border, inversion, mirroring) at a time.
 #include "vision/tags/tag_book.h"
 
 #include <cstddef>

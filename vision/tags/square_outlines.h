@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Squares that could be tags, whatever is inside: for messages where no tag was read.
+// Squares that could be tags, whatever is inside, for messages about images in which no tag was read.
 #include <array>
 #include <vector>
 
@@ -13,7 +13,7 @@ namespace fidservo::vision {
 struct SquareOutline {
     std::array<Eigen::Vector2d, 4> corners_px;
     double side_px;        ///< mean of the four
-    double contrast_grey;  ///< grey levels outside less those inside, close to the sides
+    double contrast_grey;  ///< grey level outside minus inside, close to the sides
     /// Standard deviation of the profile of its sides: contrast / (steepest slope sqrt(2 pi)).
     double blur_px;
     bool has_pattern;  ///< the grey levels inside vary by a large part of the contrast, as a code's do

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// How blurred, how bright and how noisy a tag is in its frame.
+// Measures the blur, brightness and noise of a tag in its frame.
 //
 // Every side of the black border is an edge from ink to paper. Along pixel rows (columns, where the side is
 // nearer to level) the grey levels g are normalised, G = (g - black) / (white - black), by levels that are
@@ -21,9 +21,9 @@
 
 namespace fidservo::vision {
 
-/// Measures a tag whose corners are known to about a pixel. Blur is measured up to where its profile fills a
-/// cell: a standard deviation of 0.11 cells, 4 px on the reference rig. A strip in which more than 1 pixel in
-/// 200 is at 0 or 255 is saturated, and its side and noise are not measured.
+/// Measures a tag whose corners are known to about a pixel. Blur is measured only up to a standard deviation
+/// of 0.11 cells (4 px on the reference rig), at which the profile of an edge fills a cell. A strip in which
+/// more than 1 pixel in 200 is at 0 or 255 is saturated, and its side and noise are not measured.
 /// @param image  CV_8UC1
 TagAppearance tag_appearance(const cv::Mat& image, const TagDetection& tag);
 

@@ -20,15 +20,16 @@ struct TagReading {
     bool operator==(const TagReading&) const = default;
 };
 
-/// The number of code bits that may be corrected: fewer than half of the least distance between two codes, so
-/// that the nearest code is unique; 2 at most, and no more than a table of a million words, kept in memory,
-/// can hold.
+/// The largest number of code bits that may be corrected: fewer than half of the family's least Hamming
+/// distance, so that the nearest code is unique; at most 2, and such that the decoding table in memory has at
+/// most a million words.
 int most_correctable_bits(const TagFamily& family);
 
-/// The library decodes any family whose bits are listed such that a quarter turn shifts the list by a quarter
-/// of its length. Every square pattern can be listed so; a bit in the middle comes last. Each border,
-/// mirrored and inverted reading has a book of its own. The book includes the library's decoding table and is
-/// read-only: all detectors share it, and the last one used is kept for the next detector.
+/// The code book for a reading. libapriltag decodes any family whose bits are listed such that a quarter turn
+/// of the tag shifts the list by a quarter of its length; every square pattern can be listed in this way,
+/// with the bit in the middle last. Each border, mirroring and inversion has its own book. A book includes
+/// the library's decoding table and is read-only: all detectors share it, and the last one used is kept for
+/// the next detector.
 /// @param corrected_bits  0 to 2
 std::shared_ptr<apriltag_family> shared_tag_book(const TagReading& reading, int corrected_bits);
 

@@ -15,8 +15,8 @@ namespace fidservo::vision {
 /// Corners of a tag's black border on the plate in mm, in the order of detections.
 std::array<Eigen::Vector2d, 4> corners_mm(const PlateTag& tag);
 
-/// Tags whose border and white quiet zone (one cell all around) lie wholly in view
-/// from camera position s; nearest to the optical axis first, then by id.
+/// Tags whose border and white quiet zone (one cell all around) lie wholly in the image at camera position s,
+/// sorted by their distance from the optical axis, then by id.
 std::vector<PlateTag> visible_tags(const CameraGeometry& camera, const Plate& plate, double s_mm);
 
 /// The tag for measuring from position s: the first of visible_tags(). Empty if there is none.

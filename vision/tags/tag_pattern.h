@@ -22,8 +22,8 @@ struct PatternMatch {
     /// the tag lies outside the image, or if black is brighter than white.
     double explained = 0.0;
     double contrast = 0.0;  ///< white - black, grey levels
-    /// Numbers of wrong code bits and of wrong cells among those that are alike on every tag: those on the
-    /// wrong side of the mid level between black and white.
+    /// Numbers of wrong code bits, and of wrong cells among those that are the same on every tag: cells on
+    /// the wrong side of the mid level between black and white.
     int wrong_code_bits = TagPattern::most_cells * TagPattern::most_cells;
     int wrong_fixed_cells = TagPattern::most_cells * TagPattern::most_cells;
     double margin = 0.0;  ///< mean distance of the code's cells from the mid level, grey levels
@@ -38,7 +38,8 @@ PatternMatch match_pattern(const cv::Mat& image, const std::array<Eigen::Vector2
 double explained_contrast(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
                           const TagPattern& pattern);
 
-/// The same over the code's cells only. A dark border around another pattern says nothing about the code.
+/// explained_contrast() over the cells of the code only, since a dark border around another pattern is no
+/// evidence for the code.
 double explained_code(const cv::Mat& image, const std::array<Eigen::Vector2d, 4>& corners_px,
                       const TagPattern& pattern);
 
@@ -48,16 +49,17 @@ struct LeastExplained {
     double of_code;  ///< explained_code()
 };
 
-/// Where the levels of n cells are random, the fraction R^2 that one given pattern explains besides level, x
-/// and y has the distribution Beta(1/2, (n - 4)/2), and a family of N codes tries 4 N patterns, so that small
-/// codes in large families match by chance most easily. Both levels are those at which
+/// The least fractions of a family. If the grey levels of n cells are random, the fraction R^2 that a given
+/// pattern explains in addition to level, x and y has the distribution Beta(1/2, (n - 4)/2). A family of N
+/// codes tries 4 N patterns, so that small codes in large families match by chance most easily. Both
+/// fractions are those at which
 ///
 ///     4 N P(R^2 > level)
 ///
-/// has the same value as for tag36h11 at 0.4, with the n cells of a tag with a border of one cell, and of its
-/// code (wider borders add nothing: their cells are alike). A tag36h11 is judged by explained_contrast()
-/// only: real ones reach 0.43 at 1.5 px a cell and 0.95 on the machine; texture that reads as a code, 0.31 at
-/// most in 240 images of noise.
+/// has the same value as for tag36h11 at 0.4. For of_tag, n is the number of cells of a tag with a border of
+/// one cell (wider borders add no information, since their cells are alike), for of_code that of the code.
+/// tag36h11 is judged by explained_contrast() only: real tags reach 0.43 at 1.5 px a cell and 0.95 on the
+/// machine; textures that were read as a code in 240 images of noise reached at most 0.31.
 LeastExplained least_explained(const TagFamily& family);
 
 /// Whether a pattern reaches both levels; a level of_code of 0 is not tested.

@@ -12,10 +12,10 @@
 
 namespace fidservo::vision {
 
-/// From pixels to cells in two steps, for inner loops: q = cubic(u, v), then the projective map
-/// (x, y, 1) ~ m (q_x, q_y, 1), whose parameters are fitted. With a calibrated camera, q is the plate's plane
-/// as the camera shows it (mirrored, where the tag's picture is) and m a similarity; without one, q is the
-/// image and m any homography.
+/// The map from pixels to cells has two steps, which are cheap in inner loops: q = cubic(u, v), then the
+/// projective map (x, y, 1) ~ m (q_x, q_y, 1), whose parameters are fitted. With a calibrated camera, q is a
+/// point in the plate's plane by the camera's calibration (mirrored if the tag's picture is) and m a
+/// similarity; without a camera, q is an image point and m any homography.
 class TagPicture {
   public:
     static constexpr int cubic_terms = 10;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The place of a tag as precisely as its pixels allow, from all edges of its code.
+// Measures the position of a tag as precisely as its pixels allow, from all edges of its code.
 #include "core/camera/camera_geometry.h"
 #include "core/detection.h"
 #include "core/result.h"
@@ -40,28 +40,29 @@ struct RefinedTag {
     bool camera_known = false;
 };
 
-/// Prior knowledge of the picture.
+/// Prior knowledge of camera and motion.
 struct RefinementOptions {
-    /// A calibrated camera, whose tilt and distortion apply to the tag's picture. Without one the perspective
-    /// is fitted too, at 1.4 times the standard deviation; the same happens where a tag fits a free
-    /// perspective but not the camera's.
+    /// A calibrated camera, whose tilt and distortion determine the tag's perspective. Without one the
+    /// perspective is fitted, too, which increases the standard deviation of the position to 1.4 times. The
+    /// same happens if a tag fits a free perspective but not the camera's.
     std::optional<CameraGeometry> camera;
     GreyNoise noise{white_grey / 10000.0, 0.1, 0.0};  ///< of the camera
-    /// The picture's motion during the exposure. Zero: unknown; it then shows as unequal blurs of the edges.
+    /// The tag's motion in the image during the exposure. Zero: unknown; it is then fitted as a different
+    /// blur across the two directions of edges.
     Eigen::Vector2d motion_px = Eigen::Vector2d::Zero();
     /// Initial value for the standard deviation of the edges' profiles: a good one saves an iteration or two.
     double blur_px = 1.0;
 };
 
-/// Weighted least squares of a picture of the tag against the raw pixels along all edges of its code:
-/// position, rotation, scale (without a calibrated camera also perspective), blur, ink spread, and planes
-/// of light for black and for white. Weights are the camera's own noise at the modelled grey level. Stretches
-/// of edge that do not look like the tag (covered, scratched, glaring) are left out. Covariances follow from
-/// the Fisher information, and are widened to a sandwich estimate where the picture differs from the model by
-/// more than noise.
-/// Valid for tags of 24 px a side on, found to within two pixels or a quarter of a cell.
-/// Fails with Reason::occluded if too little of the tag can be seen, if it leaves the image, or if the
-/// corners would move by more than a cell's width.
+/// Weighted least-squares fit of a modelled picture of the tag to the raw pixels along all edges of its code.
+/// The parameters are position, rotation, scale (without a calibrated camera also perspective), the blur and
+/// its shape, ink spread, the levels of black and white, and the variation of light over the tag. Weights are
+/// the camera's own noise at the modelled grey level. Stretches of edge that do not look like the tag
+/// (covered, scratched, glaring) are left out. Covariances follow from the Fisher information, and are
+/// widened to a sandwich estimate where the picture differs from the model by more than noise. Valid for tags
+/// with sides of at least 24 px, whose corners are known to within two pixels or a quarter of a cell. Fails
+/// with Reason::occluded if too little of the tag can be seen, if it leaves the image, or if the corners
+/// would move by more than a cell's width.
 Result<RefinedTag> refine_tag(const cv::Mat& image, const TagDetection& found,
                               const RefinementOptions& options = {});
 

@@ -27,10 +27,10 @@ struct TrackedTag {
     FoundBy found_by;
 };
 
-/// The picture's motion since the last frame, as the stage's sensors predict it.
+/// The motion of the tags in the image since the last frame, as predicted from the stage's sensors.
 struct PictureMotion {
     Eigen::Vector2d shift_px;
-    double uncertainty_px;  ///< largest error of the shift to be expected
+    double uncertainty_px;  ///< largest expected error of the shift
     Eigen::Vector2d during_exposure_px = Eigen::Vector2d::Zero();
 };
 
@@ -43,11 +43,11 @@ struct TagTrackerOptions {
     int look_around_every = 0;
 };
 
-/// Finds tags where they are expected (align_tag), where that fails with libapriltag in the region around,
-/// and where that fails in the whole image. An id is never carried over from the frame before: it is read
-/// again in every frame. A tag whose expected place is not wholly inside the image counts as having left the
-/// view and is not searched for in the whole image, unless no other tag is seen. It holds working memory: use
-/// one tracker per thread.
+/// Finds tags where they are expected (align_tag()); if that fails, with libapriltag in the region around; if
+/// that fails, too, in the whole image. Ids are not taken over from the frame before, but read again in every
+/// frame. A tag whose expected place is not wholly inside the image counts as having left the view and is not
+/// searched for in the whole image, unless no other tag is seen. It holds working memory: use one tracker per
+/// thread.
 class TagTracker {
   public:
     explicit TagTracker(const TagTrackerOptions& options = {});

@@ -20,7 +20,7 @@ class SequenceCounter {
         return step - 1;
     }
 
-    /// States that the driver restarts its count with the next frame.
+    /// To be called when the driver restarts its count with the next frame.
     void restart() { last_.reset(); }
 
     /// The last frame's number in the 64-bit count; the first frame has 0.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The results of a fleet in SQLite: FLEET/fleet.sqlite, for the report and for whoever wants to ask more. Its
-// tables are described in docs/fleet-report.md.
+// The results of a fleet in SQLite: FLEET/fleet.sqlite, for the report and for queries by users. Its tables
+// are described in docs/fleet-report.md.
 #include "src/fleet/report/result.h"
 
 #include <cstddef>
@@ -18,10 +18,9 @@ struct Collected {
     std::size_t added = 0, removed = 0;  ///< number of new or changed files, and of files that are gone
 };
 
-/// Brings FLEET/fleet.sqlite up to date with FLEET/results: files that are new or whose bytes have changed
-/// are read, what belongs to files that are gone or damaged is removed, all in one transaction. To do it
-/// again changes nothing. Throws InputError if there is no FLEET/results or the database is none of this
-/// program; RunFault if the disk fails.
+/// Brings FLEET/fleet.sqlite up to date with FLEET/results: new and changed files are read, rows of missing
+/// or damaged files are removed, all in one transaction. A second call changes nothing. Throws InputError if
+/// there is no FLEET/results or the database was not made by this program; RunFault if the disk fails.
 Collected collect_results(const std::filesystem::path& fleet);
 
 }  // namespace fidservo::fleet

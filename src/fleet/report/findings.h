@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The findings from a fleet's results: what is wrong with the model, a batch or a unit, and what has changed
-// since when.
+// The findings from a fleet's results: deviations of all units (the model is wrong), of a batch or of a unit,
+// and changes with their dates.
 #include "src/fleet/report/series.h"
 #include "src/fleet/report/statistics/attribution.h"
 #include "src/fleet/report/statistics/change_points.h"
@@ -30,9 +30,9 @@ struct UnitGroup {
 struct UnitFindings {
     QuantitySeries series;
     std::vector<Change> changes;  ///< their times are indices of the series' points
-    Level known;   ///< present value by its own diagnoses; with a limit where they do not name the effect
-    Level level;   ///< the same as a normal distribution
-    Level pooled;  ///< the same, given the fleet
+    Level known;   ///< present value by the unit's own diagnoses; a limit if they do not name the effect
+    Level level;   ///< `known` as a normal distribution (as_normal())
+    Level pooled;  ///< present value given the fleet (population.h)
 };
 
 /// One quantity.
@@ -45,7 +45,7 @@ struct QuantityFindings {
     Attribution attribution;        ///< units and groups are indices in `units` and `groups`
 };
 
-/// The dates between which something began: absent at the first, present at the second.
+/// The interval of the date at which something began, and its most likely date; seconds since 1970-01-01 UTC.
 struct Dates {
     std::int64_t earliest_s, likeliest_s, latest_s;
 };
@@ -64,13 +64,14 @@ struct Judgement {
     std::size_t quantity = 0;        ///< index in FleetFindings::quantities
     std::vector<std::size_t> units;  ///< indices in FleetFindings::units
     std::string group;               ///< the batch's name; empty if it is no batch
-    /// In floors, of a trend in floors per week. For changes of several units, their mean.
+    /// The size in floors; of a trend, in floors per week. For changes of several units, their mean.
     Level size;
     double now = 0.0;  ///< present value, floors relative to the rig file
-    /// Of a deviation: its units also have a share that they share with others, beside which `size` counts.
+    /// Of a deviation: its units also have a deviation in common with other units; `size` is the difference
+    /// from that.
     bool is_beside_others = false;
-    /// Of a deviation: its units' values count from rig files from which no other unit's do, so that the
-    /// files may differ rather than the units.
+    /// Of a deviation: its units were diagnosed with rig files that no other unit was diagnosed with. Values
+    /// are relative to the rig file, so that the files may differ rather than the units.
     bool is_by_rig_file = false;
     std::optional<Dates> since;           ///< of a change
     std::optional<std::int64_t> found_s;  ///< time of the diagnosis with which it was first found

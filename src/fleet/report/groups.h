@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Groups of units that may share a cause: by a label of their recordings, by the rig file from which their
-// values count, by the date of their first recording, or by the date of a change.
+// Groups of units that may share a cause: units with the same label, with the same rig file, with their first
+// recording in the same week, or with a change at the same date.
 #include "src/fleet/report/findings.h"
 
 #include <span>
@@ -16,13 +16,13 @@ std::vector<UnitGroup> groups_of(const std::vector<FleetResult>& results,
                                  const std::vector<UnitHistory>& histories,
                                  std::span<const UnitFindings> units);
 
-/// Changes of several units that may be one event, in the same direction: the date of each is within the
-/// intervals of all others. Or a change of a single unit.
+/// Changes of several units that may be one event: they have the same sign, and the date of each is within
+/// the intervals of all others. Or the change of a single unit.
 struct ChangeCluster {
     ChangeKind kind;
     /// Indices in `units`, and for each unit the index of its change.
     std::vector<std::size_t> units, changes;
-    Dates since;  ///< dates that are compatible with all of them
+    Dates since;  ///< dates that are compatible with all of these changes
 };
 
 /// All changes of a quantity, those of most units first.

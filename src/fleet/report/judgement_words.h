@@ -12,8 +12,8 @@ namespace fidservo::fleet {
 /// "the model is wrong for all units", "batch 7", "unit P-0007".
 std::string whose_words(const FleetFindings& findings, const Judgement& judgement);
 
-/// What is said where there is no judgement: that no unit stands out; of fewer than three units, what their
-/// diagnoses name, as nobody can tell then whose it is; or that nothing was diagnosed.
+/// The text for a report without a judgement: that no unit stands out; for fewer than three units, where
+/// deviations cannot be attributed, what their diagnoses name; or that nothing was diagnosed.
 std::string nothing_stands_out(const FleetFindings& findings);
 
 /// The finding in one sentence.

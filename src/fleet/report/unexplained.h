@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Gaps that no effect of the catalogue explains, of single units or of all. They do not appear in the sizes
-// of effects by which units are judged otherwise.
+// Gaps that no effect of the catalogue explains, of single units or of all. They are judged separately, since
+// they do not change the sizes of effects.
 #include "src/fleet/report/series.h"
 
 #include <cstddef>
@@ -23,18 +23,19 @@ struct LeftOver {
 /// All units' remainders.
 struct Unexplained {
     std::vector<LeftOver> units;             ///< units with a remaining gap, the largest first
-    std::size_t diagnosed = 0;               ///< number of units of which a diagnosis has succeeded
+    std::size_t diagnosed = 0;               ///< number of units with a successful diagnosis
     std::vector<std::size_t> not_diagnosed;  ///< units whose last campaign could not be diagnosed
 
     bool empty() const { return units.empty(); }
-    /// Whether at least two units and 80 % of all have one: it is then not a matter of single units.
+    /// Whether at least two units, and 80 % of all, have a remaining gap, so that its cause is not in single
+    /// units.
     bool is_of_all() const;
     /// The median of the remaining gaps, floors.
     double median_floors() const;
 };
 
-/// A unit leaves something where the last diagnosis that succeeded says unexplained or partly-explained, and
-/// more than 1.1 floors are left.
+/// A unit has a remaining gap if its last successful diagnosis has the verdict unexplained or
+/// partly-explained and leaves more than 1.1 floors.
 Unexplained unexplained_of(const std::vector<FleetResult>& results, const std::vector<UnitHistory>& units);
 
 /// "2 of 7 units could not be diagnosed when they were recorded last: U-3 and U-5." Empty if all could.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A file of a bag of ROS 2 in SQLite's format, which may be compressed, or its messages.
+// A file of a ROS 2 bag in SQLite's format. The file or its messages may be compressed.
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -23,19 +23,21 @@ inline constexpr int most_message_bytes = 1 << 28;
 
 class BagDatabase {
   public:
-    /// Opens it; a file that zstd compressed is decompressed into memory. Throws BagError: it is no bag, or
-    /// is cut off, or its topics and messages are not plain tables.
-    /// @param is_interrupted  asked while it reads, now and later; once it gives true, BagError is thrown
+    /// Opens a file; one that is compressed by zstd is decompressed into memory. Throws BagError if it is not
+    /// a bag, if it is truncated, or if its topics and messages are not plain tables.
+    /// @param is_interrupted  called during all reading, also after the constructor; once it returns true,
+    /// BagError is thrown
     BagDatabase(const std::filesystem::path& file, bool (*is_interrupted)());
     BagDatabase(const BagDatabase&) = delete;
     BagDatabase& operator=(const BagDatabase&) = delete;
 
-    /// Runs a query; calls visit for each row. Throws BagError; also where SQLite takes more steps than a
-    /// table of the file's size can need, as it does in one whose pages refer to each other in a circle.
+    /// Runs a query; calls visit for each row. Throws BagError, also if SQLite takes more steps than a table
+    /// of the file's size can need, as it does if the pages of a damaged file refer to each other in a
+    /// circle.
     void each(const char* sql, std::int64_t argument, const std::function<void(sqlite3_stmt*)>& visit) const;
 
     std::string name() const { return file_.filename().string(); }
-    /// What a user would want to know of the file, in one sentence; empty: nothing.
+    /// A note on the file for the user, one sentence; empty: none.
     std::string note() const;
 
   private:
@@ -61,12 +63,12 @@ class BagDatabase {
 
 std::string text_of(sqlite3_stmt* row, int column);
 
-/// A message as it was before the recorder compressed it, if it did.
+/// A message, decompressed if the recorder compressed it.
 class BagMessage {
   public:
     /// Throws CdrError: its compressed data are damaged.
     BagMessage(sqlite3_stmt* row, int column);
-    /// Lives as long as this, and no longer than the row.
+    /// Valid as long as this object and the row.
     std::string_view bytes() const { return bytes_; }
 
   private:

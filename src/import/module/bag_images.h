@@ -9,17 +9,17 @@
 
 namespace fidservo::imports {
 
-/// sensor_msgs/Image as grey: mono8, mono16, 8UC1, 16UC1, rgb8, bgr8, rgba8, bgra8 and bayer_*8; colour
-/// becomes luma, 16 bits stay. Throws CdrError.
+/// The image of a sensor_msgs/Image message in grey. Encodings: mono8, mono16, 8UC1, 16UC1, rgb8, bgr8,
+/// rgba8, bgra8 and bayer_*8; colour is converted to luma, 16 bits are kept. Throws CdrError.
 LoggedFrame frame_of_image(std::string_view message);
 
 /// Whether sensor_msgs/Image states an encoding of 16 bits. Throws CdrError.
 bool is_deep_image(std::string_view message);
 
-/// sensor_msgs/CompressedImage: its PNG or JPEG as it is. Throws CdrError.
+/// The PNG or JPEG file in a sensor_msgs/CompressedImage message, unchanged. Throws CdrError.
 LoggedFrame frame_of_compressed(std::string_view message);
 
-/// sensor_msgs/CameraInfo as YAML, as load_camera_info() reads it. Throws CdrError.
+/// A sensor_msgs/CameraInfo message as YAML that load_camera_info() reads. Throws CdrError.
 std::string text_of_camera_info(std::string_view message);
 
 }  // namespace fidservo::imports

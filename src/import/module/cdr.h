@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // CDR, the encoding of ROS 2's messages (OMG DDS-XTypes 1.3, 7.4: XCDR version 1, plain): values are aligned
-// to their size, counted from behind the four bytes that say the order of bytes.
+// to their size, relative to the end of the four-byte header, which states the byte order.
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -12,7 +12,7 @@
 
 namespace fidservo::imports {
 
-/// A message that is not what its type says.
+/// A message that does not have the structure of its type.
 class CdrError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -46,7 +46,8 @@ class CdrReader {
   private:
     std::string_view aligned(std::size_t size);
     std::string_view take(std::size_t size);
-    /// The length of a sequence whose elements take as many bytes at least.
+    /// Reads the length of a sequence whose elements take at least `least_bytes` each. Throws CdrError if the
+    /// message is too short for that.
     std::size_t length(std::size_t least_bytes);
 
     std::string_view body_;
@@ -54,7 +55,8 @@ class CdrReader {
     bool is_swapped_ = false;
 };
 
-/// std_msgs/Header: its stamp in ns since 1970; 0 where nobody set it.
+/// Reads a std_msgs/Header.
+/// @return its stamp in ns since 1970; 0 if it was not set
 std::int64_t read_header(CdrReader& cdr);
 
 }  // namespace fidservo::imports

@@ -12,9 +12,9 @@
 
 namespace fidservo::imports {
 
-/// A file while it is read.
+/// The state of reading a file.
 struct Hdf5Reading {
-    /// The largest number of things passed over that are named.
+    /// The largest number of skipped objects that are listed by name.
     static constexpr std::size_t most_named = 1'000;
 
     Log log;
@@ -22,7 +22,7 @@ struct Hdf5Reading {
     std::size_t passed_over = 0;  ///< datasets, members and links
     std::string fault{};          ///< why the file as a whole is not read; empty: none
 
-    /// What is there under a name and cannot be used, and why not.
+    /// Records an object that cannot be used, with the reason.
     void pass_over(const std::string& name, std::string why) {
         if (++passed_over <= most_named) log.signals.push_back({.name = name, .fault = std::move(why)});
     }

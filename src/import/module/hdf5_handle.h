@@ -23,7 +23,7 @@ class Hdf5Handle {
     herr_t (*close_)(hid_t);
 };
 
-/// A string of a dataset or an attribute of one element; empty if it is none.
+/// The string in a dataset or an attribute with a single element; empty if it is not of this kind.
 std::string hdf5_text(hid_t type, hid_t space, const auto& read) {
     constexpr std::size_t most_bytes = std::size_t{1} << 24U;
     if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) return {};
@@ -44,7 +44,8 @@ std::string hdf5_text(hid_t type, hid_t space, const auto& read) {
     return text.substr(0, text.find('\0'));
 }
 
-/// A word, without the blanks with which fixed lengths are filled; empty if the attribute is no string.
+/// The value of a string attribute without leading and trailing blanks; empty if it does not exist or is no
+/// string.
 inline std::string hdf5_attribute(hid_t object, const char* name) {
     if (H5Aexists(object, name) <= 0) return {};
     const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);

@@ -7,12 +7,13 @@
 
 namespace fidservo::imports {
 
-/// Datasets of numbers by their paths, columns of two dimensions as PATH[k], members of compounds as
-/// PATH.MEMBER and arrays in them as PATH.MEMBER[k]; units and CF's attributes by hdf5_meaning(); scalar
-/// strings as texts. What is passed over is there under its name, with a fault.
+/// Numeric datasets become signals named by their paths, columns of two-dimensional ones PATH[k], members of
+/// compounds PATH.MEMBER, and arrays in them PATH.MEMBER[k]; units and CF attributes are evaluated by
+/// hdf5_meaning(). Scalar strings become texts. Whatever is skipped becomes a signal with a fault.
 LogOrFault read_hdf5_file(const char* file);
 
-/// A group for each signal's path, with the attribute `unit`. What went wrong, or nothing.
+/// Writes each signal as a dataset at the path of its name, with the attribute `unit`.
+/// @return an error message; empty on success
 std::string write_hdf5_file(const char* file, const Log& log);
 
 }  // namespace fidservo::imports

@@ -7,13 +7,13 @@
 
 namespace fidservo::imports {
 
-/// Formats 5 and 7.3: arrays column by column, fields as NAME.FIELD, cells as NAME{k}; of Simulink's
-/// structures with time the signals by label, with their times. Crashes and loops of the library are for
-/// read_guarded().
+/// Reads formats 5 and 7.3. Each column of an array becomes a signal; fields are named NAME.FIELD, cells
+/// NAME{k}; signals of Simulink's structures with time are named by their labels and have their times. The
+/// library may crash or loop on damaged files: call it by read_guarded().
 LogOrFault read_mat_file(const char* file);
 
-/// Format 5: a structure for each part of a signal's name before the dot, its signals as fields; texts as
-/// character arrays. What went wrong, or nothing.
+/// Writes format 5: a signal A.B becomes the field B of a structure A; texts become character arrays.
+/// @return an error message; empty on success
 std::string write_mat_file(const char* file, const Log& log);
 
 }  // namespace fidservo::imports

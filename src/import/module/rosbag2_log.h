@@ -8,14 +8,14 @@
 
 namespace fidservo::imports {
 
-/// Reads the files of one bag as one log. Of the topics of std_msgs' numbers TOPIC; of sensor_msgs/JointState
-/// TOPIC/position[JOINT], velocity and effort, each with the messages that name the joint; of Image and
-/// CompressedImage cameras; of CameraInfo texts. Times are the headers' stamps, TOPIC/stamp, or where there
-/// is none those at which the bag received the messages, TOPIC/received, which are there in any case; of a
-/// joint that some messages do not name TOPIC/stamp/position[JOINT]. Messages are put in the order of their
-/// times.
-/// @param files  one at least, in their order; a file that zstd compressed is decompressed
-/// @param is_interrupted  asked many times a second; once it gives true, so does a fault end the reading
+/// Reads the files of one bag as one log. A topic with numbers of std_msgs becomes the signal TOPIC; one of
+/// sensor_msgs/JointState the signals TOPIC/position[JOINT], velocity and effort, each from the messages that
+/// contain the joint; Image and CompressedImage become cameras, CameraInfo texts. Times are the stamps of the
+/// headers (signal TOPIC/stamp) or, without stamps, the times of reception (TOPIC/received, which always
+/// exists). A joint that is missing from some messages has its own times, TOPIC/stamp/position[JOINT].
+/// Messages are sorted by time.
+/// @param files  at least one, in order; may be compressed by zstd
+/// @param is_interrupted  called many times a second; once it returns true, reading ends with an error
 LogOrFault read_rosbag2_files(const std::vector<std::filesystem::path>& files, bool (*is_interrupted)());
 
 }  // namespace fidservo::imports

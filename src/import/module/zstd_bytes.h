@@ -9,10 +9,10 @@
 
 namespace fidservo::imports {
 
-/// Whether bytes begin as a frame of zstd does.
+/// Whether bytes begin with the magic number of a zstd frame.
 bool is_zstd(std::string_view bytes);
 
-/// What was compressed. The error is a part of a sentence: damaged, cut off, larger than most_bytes, or
+/// The decompressed bytes. The error is a part of a sentence: damaged, truncated, larger than most_bytes, or
 /// interrupted.
 /// @param is_interrupted  asked between pieces
 tl::expected<std::string, std::string> decompressed(std::string_view bytes, std::size_t most_bytes,

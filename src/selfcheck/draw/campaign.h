@@ -11,9 +11,9 @@
 
 namespace fidservo::selfcheck {
 
-/// Makes a recording with the independent model (reference/) of the true rig; the commands are computed for
-/// the nominal one.
-/// @param substeps  integration steps per tick; the model's default where it is not given
+/// Makes a recording with the independent model (reference/) of the true rig, driven by commands that were
+/// computed for the nominal rig.
+/// @param substeps  integration steps per tick; empty: the model's default
 Recording record_run(const Rig& nominal, const TrueRig& true_rig, const CampaignRun& run, std::uint64_t seed,
                      std::optional<int> substeps = {});
 

@@ -23,9 +23,8 @@ struct Case {
 CaseKind kind_of_case(std::uint64_t seed, std::size_t number);
 
 /// A case is a pure function of seed and number. All classes of effects occur once, in random order, before
-/// one occurs again; this holds separately for cases with one effect, with two, and with a withheld one.
-/// Sizes are log-uniform between a size below the floor, or a 300th of the largest if that is more, and the
-/// largest.
+/// one occurs again; this holds separately for cases with one effect, with two, and with a withheld one. The
+/// logarithm of a size is uniformly distributed (draw/put_effect.h).
 /// @param nominal  the rig as its file describes it; with a micro stage, a camera and controllers
 Case draw_case(const Rig& nominal, std::uint64_t seed, std::size_t number);
 

@@ -2,9 +2,9 @@
 #pragma once
 // Rigs with many causes at once: three effects, or a messy rig.
 //
-// A messy rig has one dominant effect, eight small ones, and a discrepancy that no effect has. How large each
-// is alone is measured on the case's own campaign, and its size is scaled until the gap that it makes is one
-// that was drawn.
+// A messy rig has one dominant effect, eight small ones, and a discrepancy that no effect of the catalogue
+// describes. A gap is drawn for each cause; its size is then scaled until, alone in the rig, it makes this
+// gap on the case's own campaign.
 #include "src/selfcheck/draw/case_draw.h"
 
 #include <cstdint>
@@ -18,17 +18,16 @@ inline constexpr double dominant_floors[] = {10.0, 100.0}, small_floors[] = {0.3
 inline constexpr double dominance = 5.0;
 inline constexpr std::size_t small_effects = 8;
 
-/// Whether a kind is one of these. They are drawn separately from the other kinds.
+/// Whether a kind has many causes. These kinds are numbered and drawn separately from the others.
 bool is_crowded(CaseKind kind);
 
-/// Of three cases in a row one has three effects, one is messy, and one has no dominant effect.
+/// Of three cases in a row one has three effects, one is messy, and one is messy without its dominant effect.
 CaseKind kind_of_crowded_case(std::uint64_t seed, std::size_t number);
 
-/// A pure function of seed and number, as draw_case() is. Of three effects the sizes are drawn as those of
-/// two are; a messy case takes some twenty simulated campaigns. Of a messy rig's effects every second one, or
-/// the next after it that can be, is made by another formula than the catalogue's
-/// (src/selfcheck/draw/other_formulas.h).
-/// Throws std::runtime_error where no size makes a gap that was drawn.
+/// A pure function of seed and number, as draw_case() is. For three effects, sizes are drawn as for two. A
+/// messy case takes some twenty simulated campaigns; about every second of its effects is simulated by
+/// another formula than the catalogue's (src/selfcheck/draw/sized_causes.h). Throws std::runtime_error if no
+/// size makes a gap within its range.
 /// @param nominal  with a micro stage, a camera and controllers
 Case draw_crowded_case(const Rig& nominal, std::uint64_t seed, std::size_t number);
 

@@ -25,7 +25,8 @@ constexpr std::array discrepancies{
     DiscrepancyKind{"camera.geometry", "time", camera_place, time, 1e-3, 0.1},
 };
 
-/// What the campaign's recordings cover.
+/// The lowest and the highest value of a variable in a campaign's recordings, in its own unit (mm/s, mm, degC
+/// or s).
 std::pair<double, double> range_of(reference::DependsOn variable, const Rig& rig) {
     constexpr double longest_recording_s = 35.0, middle_of_travel = 0.25;
     const MacroParameters& macro = rig.macro;

@@ -10,9 +10,9 @@
 namespace fidservo::selfcheck {
 
 /// Eight recordings on the independent model of the true rig, each filmed for 2 s (reference/tag_picture.h).
-/// The detections are what the program's detector finds in the frames, their looks are measured as diagnose
-/// does; the frames are not kept. On all cores.
-/// Throws InputError where the rig's camera does not look straight down.
+/// The program's detector finds the tags in the frames, and their appearance is measured as `diagnose` does;
+/// the frames are not kept. Computed on all cores. Throws InputError if the rig's camera does not look
+/// straight down.
 std::vector<Recording> film_campaign(const Rig& nominal, const TrueRig& true_rig, std::uint64_t seed);
 
 }  // namespace fidservo::selfcheck

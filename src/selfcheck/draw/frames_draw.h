@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Cases with frames: effects of the image, which show nowhere else.
+// Cases with frames: effects of the image, which show in no other signal.
 #include "src/selfcheck/draw/case_draw.h"
 
 #include <cstdint>
@@ -12,7 +12,8 @@ namespace fidservo::selfcheck {
 /// Whether cases of a kind have frames. They are drawn separately from the other kinds.
 bool has_frames(CaseKind kind);
 
-/// Of four cases in a row two have an effect of the image, one has one that is withheld, and one has none.
+/// Of four cases in a row two have an effect of the image, one has such an effect but withholds it from the
+/// diagnosis, and one has no effect.
 CaseKind kind_of_frames_case(std::uint64_t seed, std::size_t number);
 
 /// A pure function of seed and number, as draw_case() is.

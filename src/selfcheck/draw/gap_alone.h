@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The gap that one cause alone makes, and the size at which it makes a given gap.
+// The gap that a cause makes when it is the only one in a rig, and the size at which it makes a given gap.
 #include "src/selfcheck/draw/true_rig.h"
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace fidservo::selfcheck {
 
-/// The gap, in floors, by which a rig's campaign exceeds the floor over all signals, when the nominal rig
-/// predicts it: sqrt(gap^2 - 1). For the nominal rig itself it is about 0.1.
+/// The excess of a rig's gap over the floor, sqrt(gap^2 - 1), with the gap in floors over all signals, when
+/// the nominal rig predicts a campaign of this rig. For the nominal rig itself it is about 0.1, by chance.
 double gap_alone(const Rig& nominal, const TrueRig& rig, std::uint64_t campaign_seed);
 
-/// The gap to be reached, in floors.
+/// A gap to be reached, in floors.
 struct GapAim {
     double low, high;  ///< the allowed range
     double target;     ///< target within the range
@@ -30,8 +30,8 @@ struct SizedGap {
 };
 
 /// Finds a size whose gap is in the allowed range and, unless the gap is discontinuous there, within a half
-/// of the target: first by proportion, then by bisection of the logarithm between two sizes. Empty where the
-/// largest size is too small, or where none was found in eight trials.
+/// of the target: first by proportion, then by bisection of the logarithm of the size. Empty if the largest
+/// size makes too small a gap, or if eight trials found no size.
 /// @param gap_of  the gap for a size, in floors
 std::optional<SizedGap> size_for_gap(const std::function<double(double)>& gap_of, const SizeRange& sizes,
                                      const GapAim& aim);

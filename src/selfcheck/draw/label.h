@@ -24,7 +24,7 @@ enum class CaseKind : std::uint8_t {
     /// A dominant effect of the catalogue, eight small ones, and a discrepancy that is no effect of the
     /// catalogue.
     messy,
-    messy_none,  ///< the same without the dominant one
+    messy_none,  ///< as messy, without the dominant effect
     rough,       ///< two large effects and a discrepancy of many floors, of one stage
 };
 inline constexpr std::size_t kind_count = 12;
@@ -37,19 +37,20 @@ struct TrueEffect {
     std::string effect;      ///< the catalogue's name, or a name of its own
     std::string class_name;  ///< shared by effects that no data can distinguish from it
     std::string block;
-    std::string formula;  ///< the variant of its formula, where there are several; empty for the usual one
+    std::string formula;  ///< which formula simulates it; empty: the catalogue's
     double size = 0.0;    ///< in the unit of its draw
     /// The error it is expected to cause, in floors of the signal that shows it most.
     double expected_floors = 0;
     /// The gap that this effect alone causes over all signals, sqrt(gap^2 - 1), measured on the case's
     /// campaign; 0: not measured.
     double gap_floors = 0.0;
-    /// For an effect that has no right name: its contribution at a port, where a formula states it
+    /// For an effect that the diagnosis cannot name: its contribution at a port, if a formula can state it
     /// (draw/true_formula.h).
     std::optional<FormulaEffect> as_formula = {};
 };
 
-/// A smooth function on one signal's block that is no effect of the catalogue.
+/// A smooth function that acts on one block of the signal chain and that no effect of the catalogue
+/// describes.
 struct TrueDiscrepancy {
     std::string block;
     std::string depends_on;   ///< "speed", "place", "contraction", "temperature" or "time"

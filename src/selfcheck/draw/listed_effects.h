@@ -17,7 +17,7 @@ struct EffectDraw {
     using Put = void (*)(reference::Departures& rig, double size, NoiseStream& draw);
 
     std::string_view effect;   ///< the catalogue's name
-    std::string_view formula;  ///< empty for the usual one
+    std::string_view formula;  ///< which formula simulates it; empty: the catalogue's
     /// The size at which it causes an error of one floor (r.m.s.) in some signal of the reference rig's
     /// campaign, as measured.
     double floor_size;
@@ -28,13 +28,13 @@ struct EffectDraw {
 /// In the order of the catalogue.
 std::span<const EffectDraw> listed_effects();
 
-/// The classes among them, each once.
+/// The classes of the listed effects, each once. Effects of one class cannot be distinguished by any data.
 const std::vector<std::string_view>& listed_classes();
 
-/// The ways for a class.
+/// All ways to simulate an effect of a class.
 std::vector<const EffectDraw*> draws_of(std::string_view class_name);
 
-/// The ways for a class among given ones.
+/// Those of some ways that simulate an effect of a class.
 std::vector<const EffectDraw*> draws_of(std::string_view class_name, std::span<const EffectDraw> ways);
 
 /// Whether two classes may be drawn together; not if the parameters of one are part of the other's.

@@ -9,10 +9,10 @@
 
 namespace fidservo::selfcheck {
 
-/// Their floor sizes only serve as start of the search for a size.
+/// EffectDraw::floor_size of these is only a start value of the search for a size (draw/gap_alone.h).
 std::span<const EffectDraw> other_formulas();
 
-/// Those of a class; empty where there is none.
+/// The other formulas of a class; empty if there are none.
 std::vector<const EffectDraw*> other_formulas_of(std::string_view class_name);
 
 }  // namespace fidservo::selfcheck

@@ -13,8 +13,9 @@ namespace fidservo::selfcheck {
 /// The label of an effect that was simulated in a given way.
 TrueEffect true_effect(const EffectDraw& way, double size);
 
-/// One of the ways to make an effect of a class, from below the floor, or a 300th of the largest where that
-/// is more, to the largest.
+/// Puts an effect of a class into a rig, in one of the ways to simulate it. Its size is between the largest
+/// and 0.7 floors, or a 300th of the largest if that is more.
+/// @return its label
 TrueEffect put_listed(TrueRig& rig, std::string_view class_name, NoiseStream& draw);
 
 }  // namespace fidservo::selfcheck

@@ -24,7 +24,7 @@ void shuffle(std::vector<Item>& items, NoiseStream draw) {
     for (std::size_t k = items.size(); k > 1; --k) std::swap(items[k - 1], items[index_below(draw, k)]);
 }
 
-/// Round robin: item k of a list that is shuffled anew whenever all of it was met.
+/// Item k of an endless sequence in which the whole list is repeated, in a new random order each time.
 template <class Item>
 Item met(std::span<const Item> items, std::uint64_t seed, CaseKind kind, std::size_t k) {
     std::vector<Item> round(items.begin(), items.end());
@@ -35,7 +35,7 @@ Item met(std::span<const Item> items, std::uint64_t seed, CaseKind kind, std::si
 /// The kinds of cases in random order, reshuffled after each round.
 class KindCycle {
   public:
-    /// @param name  of what it is drawn from
+    /// @param name  of the random numbers' stream
     constexpr KindCycle(std::span<const CaseKind> kinds, std::string_view name)
         : kinds_(kinds), name_(name) {}
 

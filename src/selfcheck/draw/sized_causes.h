@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Causes that are put into a rig one by one, each so large that alone it makes a gap that was drawn.
+// Causes (effects and discrepancies) that are added to a rig one by one, each with the size at which it alone
+// makes a given gap.
 #include "src/selfcheck/draw/case_draw.h"
 #include "src/selfcheck/draw/discrepancy_draw.h"
 #include "src/selfcheck/draw/gap_alone.h"
@@ -14,21 +15,21 @@
 
 namespace fidservo::selfcheck {
 
-/// Every second effect, or the next after it that can be, is made by another formula than the catalogue's
-/// (other_formulas.h).
+/// Adds causes to a case. About every second effect is simulated by another formula than the catalogue's
+/// (other_formulas.h): if there is none for it, the next effect that has one is.
 class SizedCauses {
   public:
-    /// @param nominal  is referred to
-    /// @param drawn    the case whose rig and label they are put into; is referred to
-    /// @param draw     of the case; is referred to
+    /// @param nominal  must outlive this object
+    /// @param drawn  the case whose rig and label the causes are added to; must outlive this object
+    /// @param draw  random numbers of the case; must outlive this object
     SizedCauses(const Rig& nominal, Case& drawn, NoiseStream& draw);
 
-    /// Of the classes in their order, the first one that can be together with those before it and that comes
-    /// to the aim. Throws std::runtime_error where none does.
+    /// Adds an effect of the first class in `order` that is compatible with the effects already added
+    /// (can_join()) and reaches the aimed gap with some size. Throws std::runtime_error if there is none.
     void add_effect(const std::vector<std::string_view>& order, const GapAim& aim);
 
-    /// Of the kinds in their order, the first one that comes to the aim. Throws std::runtime_error where none
-    /// does.
+    /// Adds a discrepancy of the first kind in `order` that reaches the aimed gap with some size. Throws
+    /// std::runtime_error if there is none.
     void add_discrepancy(const std::vector<DiscrepancyKind>& order, const GapAim& aim);
 
   private:
@@ -39,7 +40,7 @@ class SizedCauses {
 
     Way draw_way(std::string_view name);
 
-    /// @param put  puts the cause of a size into a rig's departures
+    /// @param put  adds the cause with a given size to a rig's departures
     template <class Put>
     std::optional<SizedGap> size_of(const Put& put, const SizeRange& sizes, const GapAim& aim) const;
 
@@ -50,10 +51,10 @@ class SizedCauses {
     std::vector<std::string_view> classes_;
 };
 
-/// A gap that is drawn evenly in the logarithm.
+/// A gap between two limits, in floors, whose logarithm is uniformly distributed.
 GapAim aim_between(double low, double high, NoiseStream& draw);
 
-/// In random order.
+/// The items in random order.
 template <class Item>
 std::vector<Item> shuffled(std::span<const Item> items, NoiseStream& draw) {
     std::vector<Item> order(items.begin(), items.end());
@@ -61,7 +62,7 @@ std::vector<Item> shuffled(std::span<const Item> items, NoiseStream& draw) {
     return order;
 }
 
-/// Whether a class can be in one rig with all of others (can_be_together()).
+/// Whether a class may be drawn for one rig with each of the others (can_be_together()).
 bool can_join(std::string_view class_name, std::span<const std::string_view> others);
 
 }  // namespace fidservo::selfcheck

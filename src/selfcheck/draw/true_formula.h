@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// An effect's contribution at a port of the machine, as the formula that a diagnosis might propose.
+// The true contribution of an effect at a port of the simulated machine, as a formula with which the equation
+// that a diagnosis proposes is compared.
 #include "core/formula_effect.h"
 #include "src/selfcheck/draw/true_rig.h"
 
@@ -13,8 +14,8 @@ struct Rig;
 
 namespace fidservo::selfcheck {
 
-/// The formula with its numbers for a rig with one effect, where one formula at one port states it; empty
-/// otherwise (why_not_a_formula).
+/// The formula, with its coefficients, of the only effect of a rig; empty if a single formula at a single
+/// port cannot state the effect (why_not_a_formula()).
 /// @param nominal  the rig as its file describes it
 /// @param effect  a name of the catalogue, or of an effect that it lacks
 std::optional<FormulaEffect> as_formula(const TrueRig& rig, const Rig& nominal, std::string_view effect);

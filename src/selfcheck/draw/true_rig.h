@@ -6,7 +6,8 @@
 
 namespace fidservo::selfcheck {
 
-/// `rig` is the file that the diagnosis gets, unless an effect that the catalogue lacks has changed it.
+/// The true rig is `rig` with `departures`. `rig` is the rig file that the diagnosis gets, unless the case
+/// has an effect that is simulated as a change of the rig itself (unlisted_effects.h).
 struct TrueRig {
     Rig rig;
     reference::Departures departures;

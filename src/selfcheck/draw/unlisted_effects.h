@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Effects that the catalogue lacks and that no setting of one or two of its effects reproduces.
+// Effects that are not in the catalogue and that no setting of one or two of its effects reproduces.
 #include "core/random.h"
 #include "src/selfcheck/draw/true_rig.h"
 

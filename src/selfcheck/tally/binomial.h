@@ -20,8 +20,9 @@ struct Interval {
     double low, high;
 };
 
-/// Wilson's 95 % interval of a binomial share: the p with |hits - of p| <= z sqrt(of p (1 - p)). [0, 1] of
-/// none. Source: Wilson, J. Am. Stat. Assoc. 22 (1927); Newcombe, Statistics in Medicine 17 (1998), method 3.
+/// Wilson's 95 % confidence interval of a binomial probability: all p with |hits - of p| <= z sqrt(of p (1 -
+/// p)), z = 1.96. [0, 1] for of = 0. Source: Wilson, J. Am. Stat. Assoc. 22 (1927); Newcombe, Statistics in
+/// Medicine 17 (1998), method 3.
 Interval wilson_interval(const Share& share);
 
 }  // namespace fidservo::selfcheck

@@ -11,8 +11,8 @@ namespace fidservo::selfcheck {
 /// Least size, in floors (Score::floors), at which an equation is expected.
 inline constexpr double equation_floors = 10.0;
 
-/// For effects that were withheld or are not in the catalogue, and that a formula at a port states
-/// (draw/true_formula.h).
+/// Figures over the cases whose effect was withheld or is not in the catalogue, and can be stated as a
+/// formula at a port (draw/true_formula.h).
 std::vector<ShareFigure> equation_shares(std::span<const Outcome> outcomes);
 
 std::vector<LimitFigure> equation_limits(std::span<const Outcome> outcomes);

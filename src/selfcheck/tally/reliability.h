@@ -25,9 +25,9 @@ struct Reliability {
     double brier = 0.0;           ///< mean of (probability - 1 or 0)^2
 };
 
-/// @param most_bins  of equal count; fewer where a bin would have less than least_claims
-/// Source: Naeini, Cooper, Hauskrecht, AAAI 2015 (expected calibration error); Brier, Mon. Weather Rev. 78
-/// (1950).
+/// @param most_bins  the largest number of bins, all with as many claims; there are fewer if a bin would have
+/// less than least_claims Source: Naeini, Cooper, Hauskrecht, AAAI 2015 (expected calibration error); Brier,
+/// Mon. Weather Rev. 78 (1950).
 Reliability reliability_of(std::vector<Claim> claims, std::size_t most_bins = 10,
                            std::size_t least_claims = 20);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Compares a diagnosis with the true causes of its case. Only here are labels read.
+// Compares a diagnosis with the true causes of its case. Labels are read nowhere else.
 //
 // Effects are compared by class. An effect found stands for the set of classes from which it is said to be
 // indistinguishable, its own included; it is right if a true cause is in its set.
@@ -15,7 +15,7 @@
 
 namespace fidservo::selfcheck {
 
-/// A wrong name with at least this probability is a confidently wrong name: for most cases, and for rigs with
+/// A wrong name with at least this probability counts as confidently wrong. The second value is for rigs with
 /// many causes at once.
 inline constexpr double confident = 0.9, confident_of_crowded = 0.5;
 
@@ -25,10 +25,11 @@ std::set<std::string> classes_named(const gap::FoundEffect& found);
 /// An effect that a diagnosis names.
 struct NamedEffect {
     std::string effect, class_name;
-    bool is_true;  ///< its set contains a true cause
+    bool is_true;  ///< the set of classes that it stands for contains a true cause
     double probability;
     gap::Support support = {};
-    /// Whether an equation in its place is likelier and has taken most of its probability (gap/proposal.h).
+    /// Whether an equation that is proposed in place of this name is likelier and took over most of its
+    /// probability (gap/proposal.h).
     bool is_replaced = false;
     double gap_before,
         gap_after;  ///< gap over all signals, in floors, with the effects before it, and with it in addition
@@ -57,16 +58,16 @@ struct Score {
 
     /// For a messy rig: index of its dominant effect among those named.
     std::optional<std::size_t> dominant_place;
-    /// The fraction, in squares, of the true effects' contribution to the gap that the explanation removes.
-    /// The gap that remains with the true effects is that of the discrepancy alone.
+    /// For a messy rig: the fraction of the true effects' contribution to the squared gap that the
+    /// explanation removes. Without the true effects' contribution, the gap of the discrepancy alone remains.
     std::optional<double> removed_of_true;
-    /// For a case whose effect is a formula without a right name.
+    /// For a case whose effect cannot be named but can be stated as a formula.
     std::optional<EquationScore> equation;
     bool proposes_equation = false;
 };
 
-/// For a case whose effect was withheld, or is not in the catalogue, every name is wrong.
-/// @param evidence  the diagnosed one; nullptr: equations are not scored
+/// Scores a diagnosis. Every name is wrong for a case whose effect was withheld or is not in the catalogue.
+/// @param evidence  the evidence that was diagnosed; nullptr: equations are not scored
 Score score(const Label& label, const gap::Diagnosis& diagnosis, const gap::Evidence* evidence = nullptr);
 
 }  // namespace fidservo::selfcheck

@@ -59,7 +59,7 @@ struct Tally {
 
 Tally tally(std::span<const Outcome> outcomes);
 
-/// Whether all figures with a limit keep it; figures without cases do.
+/// Whether all figures that have a limit are within it. Figures without cases count as within.
 bool keeps_all_limits(const Tally& tally);
 
 /// The p-quantile of the values; NaN without values.

@@ -6,8 +6,8 @@
 
 namespace fidservo::selfcheck {
 
-/// What a terminal shows of a tally: figures with their 95 % intervals and limits, then power against size,
-/// reliability, and what was named by class. What no case was met of is left out.
+/// A tally as text for the terminal: figures with their 95 % intervals and limits, then power against size,
+/// reliability, and the names given for each class. Figures without cases are left out.
 std::string text_of(const Tally& tally);
 
 }  // namespace fidservo::selfcheck

@@ -7,8 +7,8 @@
 
 namespace fidservo::selfcheck {
 
-/// Of the ties for which an experiment was designed (src/selfcheck/ties.h): resolved by it, and by the best
-/// one of the list.
+/// The fractions of ties that were resolved by the designed experiment and by the best one of the list, out
+/// of the ties for which an experiment was designed (src/selfcheck/ties.h).
 std::vector<ShareFigure> tie_shares(std::span<const Outcome> outcomes);
 
 }  // namespace fidservo::selfcheck

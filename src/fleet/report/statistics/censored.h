@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Likelihoods of values of which some are known only to be too small to be seen (Tobit).
+// Likelihoods of censored values: some are known only to be below a limit (Tobit model).
 //
 //     named:      N(y; theta, v)
 //     not named:  P(|theta + e| < L) = Phi((L - theta)/sqrt(v)) - Phi((-L - theta)/sqrt(v)),   e ~ N(0, v)
 //
-// A diagnosis names nothing that is smaller than its limit L, so that what is named is a selection: to count
-// the others as zeros, or not at all, draws levels and scatter to the wrong place. Both factors are
-// log-concave in theta, with a curvature of 1/v at most, so that their product is nowhere narrower than a
-// normal law of the variance 1 / sum(1/v): nodes.h. Sources: Tobin, Econometrica 26, 1958; Amemiya,
-// J. Econometrics 24, 1984.
+// A diagnosis names no effect that is smaller than its limit L, so that the named values are a selection:
+// counting the others as zeros, or leaving them out, would bias level and scatter. Both factors are
+// log-concave in theta, with a curvature of at most 1/v, so that their product is nowhere narrower than a
+// normal density of variance 1 / sum(1/v), which sets the step of the integration (nodes.h). Sources: Tobin,
+// Econometrica 26, 1958; Amemiya, J. Econometrics 24, 1984.
 #include "src/fleet/report/statistics/nodes.h"
 #include "src/fleet/report/statistics/point.h"
 
@@ -25,9 +25,9 @@ double log_within(double limit, double mean, double std);
 /// Mean and variance of x ~ N(mean, std^2) given |x| < limit.
 Moments moments_within(double limit, double mean, double std);
 
-/// The likelihood of points by their level, and by the size of a change that adds `size * column` to each.
-/// Values of named points combine to a quadratic; identical limits of points that are not named are one
-/// factor with an exponent.
+/// The likelihood of points as a function of their level and of the size of a change that adds `size *
+/// column` to each point. The factors of all named points are combined to a quadratic; those of points with
+/// identical limits to one factor with an exponent.
 class LevelLikelihood {
   public:
     void add(const Point& point, double variance, double column = 0.0);
@@ -37,7 +37,7 @@ class LevelLikelihood {
     /// An approximate level, with points that are not named taken as 0, and a lower bound of its standard
     /// deviation.
     Level rough_level() const { return {product_ / weights_, 1.0 / std::sqrt(weights_)}; }
-    /// The same for the size of the change, given the level.
+    /// rough_level() for the size of the change, at a given level.
     Level rough_size(double level) const;
     bool all_named() const { return unseen_.empty(); }
 
@@ -53,16 +53,16 @@ class LevelLikelihood {
     std::vector<Unseen> unseen_;
 };
 
-/// The likelihood of the level that points share, over the level.
+/// The likelihood of the points' common level, at nodes of the level.
 /// @param extra_variance  added to the square of each std, floors^2
 /// @param times  factor on their variances
 Nodes over_level(std::span<const Point> points, double extra_variance, double times = 1.0);
 
-/// The level as a normal distribution: one that is not named is uniform up to its limit L, with the variance
-/// L^2/3 plus s^2 of its error.
+/// The level as a normal distribution. A level that is not named is taken to be uniform between -L and L, its
+/// limit: mean 0, variance L^2/3 + s^2, with s the standard error.
 Level as_normal(const Level& level);
 
-/// The same for a point.
+/// as_normal() of a point.
 Point as_normal(const Point& point);
 
 }  // namespace fidservo::fleet

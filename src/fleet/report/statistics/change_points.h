@@ -2,32 +2,32 @@
 #pragma once
 // Whether, when and how a unit has changed.
 //
-// At every diagnosis each time k since which the unit may have changed, by a step or by a trend of a size
-// that is drawn from a normal law about nothing, has the ratio of likelihoods
+// After every diagnosis t, a likelihood ratio is computed for each time k since which the unit may have
+// changed, by a step or by a trend whose size has a normal prior with mean 0:
 //
 //     E_k = p(y_1 .. y_t | changed since k) / p(y_1 .. y_t | unchanged)
 //
-// with the unknown level and scale integrated out (contrasts, Student's law; within_scatter.h); of a
-// diagnosis that does not name the quantity the likelihood is that of seeing nothing (limited_scan.h). While
-// nothing changes, each E_k is a martingale of mean 1, so that their sum M_t = sum_k E_k (Shiryaev and
-// Roberts) minus the number of looks is one, too, and the mean number of looks before M passes a bound A is
-// at least A. With
+// The unknown level and scale are integrated out (contrasts, Student's distribution; within_scatter.h); a
+// diagnosis that does not name the quantity has the likelihood of not detecting it (limited_scan.h). While
+// nothing changes, each E_k is a martingale of mean 1. Their sum M_t = sum_k E_k (Shiryaev and Roberts) minus
+// the number of diagnoses is then a martingale, too, so that the mean number of diagnoses before M exceeds a
+// bound A is at least A. With
 //
 //     A = quantities * looks a year / rate
 //
-// all quantities together raise at most `rate` false alarms a unit-year, however often one looks. That holds
-// for any law of sizes; it is a mean over steps of 1, 4 and 16 floors, and trends of a quarter of that a
-// week.
+// all quantities together raise at most `rate` false alarms per unit and year, however often the report is
+// made. That holds for any prior of the sizes; the one used has standard deviations of 1, 4 and 16 floors for
+// steps and a quarter of these per week for trends, with equal weights.
 //
-// An alarm counts where it stands without any one of the diagnoses, too: a single one may be wrong by more
-// than its error says. A run of diagnoses that do not name the effect counts as one: what the first passes
-// over the others pass over as well.
+// An alarm counts only if it persists when any single diagnosis is left out, since a single diagnosis may be
+// wrong by far more than its standard error. Consecutive diagnoses that do not name the effect are left out
+// together, since their errors are alike.
 //
-// Of what was found the date is that of the largest likelihood, and its interval holds 95 % of the weight of
-// all dates; there every diagnosis counts. Further changes are looked for beside those that were found.
-// Sources: Shiryaev, Theory Probab. Appl. 8, 1963; Roberts, Technometrics 8, 1966; sums of e-processes: Shin,
-// Ramdas, Rinaldo, New Engl. J. Stat. Data Sci. 2, 2024; invariance under level and scale: Perez-Ortiz et
-// al., Ann. Stat. 52, 2024.
+// The date of a change is that of the largest likelihood, with all diagnoses; its interval contains 95 % of
+// the summed likelihood of all dates. After a change was found, further changes are searched for in addition
+// to it. Sources: Shiryaev, Theory Probab. Appl. 8, 1963; Roberts, Technometrics 8, 1966; sums of
+// e-processes: Shin, Ramdas, Rinaldo, New Engl. J. Stat. Data Sci. 2, 2024; invariance under level and scale:
+// Perez-Ortiz et al., Ann. Stat. 52, 2024.
 #include "src/fleet/report/statistics/point.h"
 #include "src/fleet/report/statistics/within_scatter.h"
 
@@ -60,22 +60,22 @@ struct CommonStep {
 };
 
 /// The alarm bound A.
-/// @param quantities  tested in a unit
+/// @param quantities  number of quantities that are tested in a unit
 /// @param looks_a_year  diagnoses of a unit per year
 /// @param rate  of false alarms, per unit and year
 double alarm_bound(double quantities, double looks_a_year, double rate);
 
 /// @param points  of one unit, by time
-/// @param scatter  of such units that do not change, not learnt from this one
+/// @param scatter  of units that do not change, estimated without this unit
 /// @param bound  alarm_bound()
-/// @param common  where a step of this unit was not looked for, but is as likely as none: one that raises no
-/// alarm counts where its likelihood ratio is 19 or more
-/// By time.
+/// @param common  times at which many units have changed. A step of this unit there has even prior odds: it
+/// also counts without an alarm if its likelihood ratio is 19 or more
+/// @return the changes, by time
 std::vector<Change> find_changes(std::span<const Point> points, const Scatter& scatter, double bound,
                                  std::span<const CommonStep> common = {});
 
-/// The present value, from the points and their changes. If no point since the last change is named, the
-/// value is a limit.
+/// The present value, from the points and their changes. If no diagnosis since the last change names the
+/// quantity, the value is a limit.
 Level level_now(std::span<const Point> points, const Scatter& scatter, std::span<const Change> changes);
 
 }  // namespace fidservo::fleet

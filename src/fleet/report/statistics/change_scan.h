@@ -51,7 +51,8 @@ class ChangeScan {
     /// @param log_ratio  log E_k for that kind
     /// @param log_best  log of the likelihood with the best size
     void set(ChangeKind kind, std::size_t first, double log_ratio, double log_best);
-    /// What a stretch of the points says of itself. @param begin  its first point's place
+    /// Copies the results of the scan of one stretch of the points.
+    /// @param begin  index of the stretch's first point
     void set_from(std::size_t begin, const ChangeScan& stretch);
 
   private:
@@ -63,12 +64,12 @@ class ChangeScan {
 /// The prior standard deviations of a change's size, floors or floors per week.
 std::span<const double> laws_of(ChangeKind kind);
 
-/// Points that are not named count by their limits (limited_scan.h); beside a trend, and where nothing is
-/// known of the scatter's scale, as normal laws (as_normal()).
-/// @param known  changes that are there in any case
+/// Scans all dates. Points that are not named enter by their limits (limited_scan.h); but as normal
+/// distributions (as_normal()) if a trend is known, or if nothing is known of the scale of the scatter.
+/// @param known  changes that were found before
 ChangeScan scan(std::span<const Point> points, const Scatter& scatter, std::span<const ChangeColumn> known);
 
-/// Likewise with all that is not named as normal laws: quicker, and near it.
+/// scan() with all points that are not named as normal distributions: an approximation that is faster.
 ChangeScan scan_as_normal(std::span<const Point> points, const Scatter& scatter,
                           std::span<const ChangeColumn> known);
 
@@ -76,7 +77,8 @@ ChangeScan scan_as_normal(std::span<const Point> points, const Scatter& scatter,
 Level size_of(std::span<const Point> points, const Scatter& scatter, std::span<const ChangeColumn> others,
               const ChangeColumn& change);
 
-/// The value at a time by a level and changes. Beside trends, what is not named counts as normal laws.
+/// The value at a time, from the level and the given changes. If there is a trend among these, points that
+/// are not named enter as normal distributions.
 Level value_at(std::span<const Point> points, const Scatter& scatter, std::span<const ChangeColumn> changes,
                double time_weeks);
 

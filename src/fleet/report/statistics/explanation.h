@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// An explanation of units' levels by shares, at each spread (attribution.h).
+// The explanation of the units' levels by a sum of shares, for each value of the spread tau between units
+// (attribution.h).
 #include "src/fleet/report/statistics/point.h"
 
 #include <array>
@@ -13,15 +14,17 @@
 
 namespace fidservo::fleet {
 
-/// The laws of a share's size: standard deviations, floors.
+/// The prior distributions of a share's size m: normal with mean 0 and these standard deviations g, floors.
 inline constexpr std::array share_laws{1.0, 4.0, 16.0, 64.0};
-/// Spreads over which sums are taken instead of integrals: 0, and 0.05 to 200 floors.
+/// Number of values of the spread tau over which sums replace the integral: 0, and 25 values from 0.05 to 200
+/// floors.
 inline constexpr std::size_t spread_count = 26;
 
 double spread_at(std::size_t k);
 double log_prior_of_spread(std::size_t k);
 
-/// Shares that were taken in: a column of zeros and ones each, and the law of its size.
+/// The shares of an explanation: for each a column of zeros and ones, and the prior standard deviation of its
+/// size, floors.
 struct TakenShares {
     explicit TakenShares(std::size_t units) : columns(static_cast<Eigen::Index>(units), 0) {}
 
@@ -31,23 +34,24 @@ struct TakenShares {
     void take(std::span<const std::size_t> units, double law);
 };
 
-/// Bayesian least squares of the levels by the shares' columns, at one spread.
+/// Bayesian least-squares fit of the levels by the shares' columns, for one value of the spread tau.
 struct AtSpread {
     Eigen::VectorXd weights;     ///< 1 / (s^2 + tau^2) of each unit
     Eigen::MatrixXd covariance;  ///< of the shares, (X' W X + G^-1)^-1
     Eigen::VectorXd sizes;       ///< of the shares
-    Eigen::VectorXd left;        ///< levels less the shares
+    Eigen::VectorXd left;        ///< residuals: levels minus shares
     double log_likelihood = 0.0;
 };
 
-/// Of a further column beside those taken: its own weighted square, and its product with what is left. Units
-/// are added one by one.
+/// The gain in likelihood by a further column beside those of an explanation. From its weighted sum of
+/// squares and its weighted product with the residuals; units are added to the column one by one.
 class FurtherColumn {
   public:
     explicit FurtherColumn(Eigen::Index shares) : shared_(Eigen::VectorXd::Zero(shares)) {}
 
     void add(const AtSpread& at, const TakenShares& taken, std::size_t unit);
-    /// What it changes the log likelihood by, with the law of its size.
+    /// Change of the log likelihood by this column, if its size has the prior standard deviation `law`,
+    /// floors.
     double log_gain(const AtSpread& at, double law) const;
 
   private:
@@ -55,25 +59,25 @@ class FurtherColumn {
     Eigen::VectorXd shared_;
 };
 
-/// A log likelihood, averaged over the laws of a further share's size, and the law under which it is
-/// likeliest.
+/// The log likelihood with a further share, its likelihood averaged over share_laws, and the value of
+/// share_laws with the largest likelihood.
 struct WithFurther {
     double log_likelihood, law;
 };
 
 class Explanation {
   public:
-    /// @param levels  those that are not named as normal laws (as_normal())
+    /// @param levels  of all units; limits must have been replaced by normal distributions (as_normal())
     explicit Explanation(std::span<const Level> levels);
 
     double log_likelihood() const { return log_likelihood_; }
-    /// With a further share of a set of units.
+    /// The likelihood with a further share that a set of units has.
     WithFurther with(std::span<const std::size_t> units) const;
-    /// With a further share of the first 1, 2, 3, .. of some units.
+    /// with() for the sets of the first 1, 2, 3, .. of some units.
     std::vector<WithFurther> with_first_of(std::span<const std::size_t> units) const;
     void take(std::span<const std::size_t> units, double law);
 
-    /// Units by what the shares leave of their levels, at the likeliest spread, the largest first.
+    /// Indices of the units, sorted by their residuals at the most likely spread, the largest first.
     std::vector<std::size_t> by_what_is_left() const;
 
   private:

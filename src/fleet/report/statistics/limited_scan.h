@@ -13,8 +13,9 @@
 
 namespace fidservo::fleet {
 
-/// E_k for every k beside a level. @param scatter  its degrees are known (not 0)
-/// The likelihood of a change's best size is taken to be its mean over sizes.
+/// E_k for every k, without other changes. In place of the likelihood of a change's best size, the mean over
+/// sizes is returned.
+/// @param scatter  with degrees other than 0
 ChangeScan scan_with_limits(std::span<const Point> points, const Scatter& scatter);
 
 }  // namespace fidservo::fleet

@@ -10,8 +10,8 @@
 
 namespace fidservo::fleet {
 
-/// Distance of nodes relative to the function's least standard deviation: the sum's relative error is then
-/// 4e-14.
+/// Distance of nodes relative to the least standard deviation that the function may have as a density. The
+/// sum's relative error is then 4e-14.
 inline constexpr double step_of_std = 0.8;
 
 /// A mean and a variance.

@@ -5,7 +5,7 @@
 
 namespace fidservo::fleet {
 
-/// The natural logarithm of the odds from which on something is told, 19 to 1.
+/// The natural logarithm of the least odds, 19 to 1, with which a finding is reported.
 inline constexpr double least_log_odds = 2.944438979166440;
 
 /// One diagnosis.
