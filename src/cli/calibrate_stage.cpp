@@ -83,10 +83,14 @@ int run_check(const StageOptions& options, const Rig& rig, Session& session) {
 
 int run_calibration(const StageOptions& options, const Rig& rig, Session& session) {
     session.record_to(options.out / "recording", "stage calibration");
-    if (const auto homed = session.home(); !homed) return end_of_run("homing", homed.error());
+    const auto leave = [&](const char* what, const Failure& why) {
+        session.leave_recording();
+        return end_of_run(what, why);
+    };
+    if (const auto homed = session.home(); !homed) return leave("homing", homed.error());
     auto shots = survey(session, StagePlan{});
-    if (const auto closed = session.end_recording(); !closed && shots) throw RunFault(closed.error().text);
-    if (!shots) return end_of_run("calibrate stage", shots.error());
+    if (!shots) return leave("calibrate stage", shots.error());
+    if (const auto closed = session.end_recording(); !closed) throw RunFault(closed.error().text);
     StageCalibration calibration{std::move(*shots), {}, {}, session.now_s()};
     auto numbers = stage_numbers(rig, calibration.shots);
     if (!numbers) return end_of_run("calibrate stage", numbers.error());

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -96,6 +97,22 @@ TEST(SlowCalibrateStageCommand, CalibratedRigFile_IsHealthyAndItsDriftIsFound) {
         run_program({"calibrate", "stage", "--check", "--sim-rig", truth, "--out", "check"}, folder.path());
     EXPECT_EQ(drifted.exit_code, 1) << drifted.out << drifted.err;
     EXPECT_TRUE(std::filesystem::exists(folder / "check/check.json"));
+}
+
+/// The signal comes while the stage is surveyed, as soon as that is said.
+TEST(SlowCalibrateStageCommand, Interrupted_LeavesARecordingThatSaysSo) {
+    const TemporaryFolder folder;
+    const std::string script = "cd '" + folder.path().string() + "'; '" + std::string(FIDSERVO_PROGRAM) +
+                               "' calibrate stage --out o > out 2> err & child=$!; "
+                               "until grep -q stands err || ! kill -0 $child; do sleep 0.02; done; "
+                               "kill -INT $child; wait $child";
+    EXPECT_NE(std::system(script.c_str()), 0);  // NOLINT(cert-env33-c)
+    EXPECT_NE(text_of(folder / "err").find("calibrate stage: stopped: stopped by the user"),
+              std::string::npos)
+        << text_of(folder / "err");
+    const std::string recording = text_of(folder / "o/recording/recording.yaml");
+    EXPECT_NE(recording.find("finished: false"), std::string::npos) << recording;
+    EXPECT_NE(recording.find("how: \"end stop, then tag"), std::string::npos) << recording;
 }
 
 }  // namespace

@@ -30,6 +30,12 @@ void make_output_folder(const std::filesystem::path& folder) {
         throw InputError(fmt::format("--out: {}: cannot be made: {}", folder.string(), error.message()));
 }
 
+void demand_new_folder(const std::filesystem::path& folder) {
+    make_output_folder(folder);
+    std::error_code ignored;
+    std::filesystem::remove(folder, ignored);
+}
+
 void set_aside(const std::filesystem::path& path) {
     if (!std::filesystem::exists(path)) return;
     // A folder's name may hold a dot and yet no extension.
