@@ -99,13 +99,13 @@ TEST(SlowCalibrateStageCommand, CalibratedRigFile_IsHealthyAndItsDriftIsFound) {
     EXPECT_TRUE(std::filesystem::exists(folder / "check/check.json"));
 }
 
-/// The signal comes while the stage is surveyed, as soon as that is said.
+/// The signal comes a second after the tuning, with which homing ends: the survey takes several.
 TEST(SlowCalibrateStageCommand, Interrupted_LeavesARecordingThatSaysSo) {
     const TemporaryFolder folder;
     const std::string script = "cd '" + folder.path().string() + "'; '" + std::string(FIDSERVO_PROGRAM) +
                                "' calibrate stage --out o > out 2> err & child=$!; "
-                               "until grep -q stands err || ! kill -0 $child; do sleep 0.02; done; "
-                               "kill -INT $child; wait $child";
+                               "until grep -q tuned: err || ! kill -0 $child; do sleep 0.02; done; "
+                               "sleep 1; kill -INT $child; wait $child";
     EXPECT_NE(std::system(script.c_str()), 0);  // NOLINT(cert-env33-c)
     EXPECT_NE(text_of(folder / "err").find("calibrate stage: stopped: stopped by the user"),
               std::string::npos)
