@@ -59,6 +59,8 @@ TEST(CalibrateStageCommand, WhatIsWrong_IsSaidInALineAndNothingIsMade) {
     expect_refusal({"--out", "there"}, folder, {"there", "exists already"});
     folder.write("old.yaml", "");
     expect_refusal({"--out", "o", "--write-rig", "old.yaml"}, folder, {"old.yaml", "exists already"});
+    expect_refusal({"--out", "o", "--write-rig", "old.yaml/new.yaml"}, folder,
+                   {"--write-rig: old.yaml/new.yaml: cannot be made in old.yaml: no folder"});
     const auto effect = rig_with_effect(folder, "{ name: pixel_scale, factor: 1.001 }").string();
     expect_refusal({"--rig", effect, "--out", "o", "--write-rig", "new.yaml"}, folder,
                    {"pixel_scale", "twice", "--sim-rig"});

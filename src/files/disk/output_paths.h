@@ -5,7 +5,8 @@
 
 namespace fidservo {
 
-/// Throws InputError if a file that an option names exists. @param file  empty where the option was not given
+/// Throws InputError if a file that an option names exists, or if nothing can be written where it should be:
+/// what it is for may take a rig minutes. @param file  empty where the option was not given
 void demand_new_file(const char* option, const std::filesystem::path& file);
 
 /// Makes a new output folder. Throws InputError if something of that name exists or it cannot be made.
