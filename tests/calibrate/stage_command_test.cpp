@@ -108,7 +108,7 @@ TEST(SlowCalibrateStageCommand, Interrupted_LeavesARecordingThatSaysSo) {
                                "' calibrate stage --out o > out 2> err & child=$!; "
                                "until grep -q tuned: err || ! kill -0 $child; do sleep 0.02; done; "
                                "sleep 1; kill -INT $child; wait $child";
-    EXPECT_NE(std::system(script.c_str()), 0);  // NOLINT(cert-env33-c)
+    EXPECT_NE(std::system(script.c_str()), 0);
     EXPECT_NE(text_of(folder / "err").find("calibrate stage: stopped: stopped by the user"),
               std::string::npos)
         << text_of(folder / "err");
