@@ -25,6 +25,7 @@ struct StatedEffect {
     std::vector<Parameter> parameters;  ///< those that the file states
     /// The formula, of an effect that is not in the simulator's catalogue.
     std::optional<FormulaEffect> formula = {};
+    std::string stated_at = {};  ///< "FILE:LINE: KEY" where a file states it; for messages
 };
 
 /// A rig as its file describes it.

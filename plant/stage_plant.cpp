@@ -16,7 +16,7 @@ PlantParameters plant_parameters(const Rig& rig) {
     if (rig.camera) parameters.camera.emplace();
     for (const StatedEffect& stated : rig.effects) {
         const EffectSetting setting = setting_of(stated);
-        apply_effects(parameters, {&setting, 1});
+        apply_effects(parameters, {&setting, 1}, stated.stated_at);
     }
     return parameters;
 }

@@ -96,6 +96,7 @@ struct SeenPlace {
 
 std::vector<SeenPlace> seen_places(const Recording& recording, const Rig& rig) {
     std::vector<SeenPlace> places;
+    if (recording.rows.empty()) return places;
     for (const TagDetection& detection : recording.detections) {
         const auto seen_mm = camera_place_mm(recording, detection, rig);
         if (!seen_mm) continue;

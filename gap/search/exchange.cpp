@@ -112,4 +112,27 @@ Chain without_needless(const Search& search, const Evidence& evidence, Chain cha
     return chain;
 }
 
+Chain without_hindrances(const Search& search, Chain chain) {
+    if (is_long(chain)) {
+        for (std::size_t k = 0; k < chain.choices.size(); ++k)
+            chain.choices[k].left_out = without_refit(search, chain, k);
+        return chain;
+    }
+    while (chain.choices.size() > 1) {
+        std::vector<Chain> rests;
+        rests.reserve(chain.choices.size());
+        for (std::size_t k = 0; k < chain.choices.size(); ++k) rests.push_back(without(search, chain, k));
+        const auto loss_of = [](const Chain& rest) { return rest.fitted.loss; };
+        const auto best = std::ranges::min_element(rests, {}, loss_of);
+        if (best->fitted.loss > chain.fitted.loss) {
+            for (std::size_t k = 0; k < rests.size(); ++k)
+                chain.choices[k].left_out = std::move(rests[k].fitted);
+            return chain;
+        }
+        chain = std::move(*best);
+    }
+    for (Choice& only : chain.choices) only.left_out = search.nothing();
+    return chain;
+}
+
 }  // namespace fidservo::gap

@@ -18,4 +18,9 @@ bool exchange(Search& search, Chain& chain, bool changed);
 /// are tested.
 Chain without_needless(const Search& search, const Evidence& evidence, Chain chain);
 
+/// A chain without those effects without which the rest, fitted again, predicts at least as well: they were
+/// added where the rest had not come to its optimum, and keep it from there. Says of each effect that stays
+/// what is left out without it (Choice::left_out). In a long chain the rest is not fitted again.
+Chain without_hindrances(const Search& search, Chain chain);
+
 }  // namespace fidservo::gap

@@ -99,12 +99,6 @@ Chain nameable_as_judged(Chain chain) {
     return chain;
 }
 
-/// The explanation without one of a chain's effects; in a long chain the rest is not refitted.
-CrossFit left_out_of(const Search& search, const Chain& chain, std::size_t left_out) {
-    if (chain.choices.size() == 1) return search.nothing();
-    return is_long(chain) ? without_refit(search, chain, left_out) : without(search, chain, left_out).fitted;
-}
-
 /// Sorts the effects by the gap that each alone would make, largest first.
 void put_largest_first(const Search& search, Chain& chain) {
     const std::size_t count = chain.choices.size();
@@ -197,9 +191,8 @@ Selection select(const Evidence& evidence, const std::vector<Candidate>& candida
     try {
         if (search.is_at_floor(chain.fitted)) selection.limits = limits_in(chain);
         chain = without_needless(search, evidence, nameable(search, chain));
+        chain = without_hindrances(search, chain);
         put_largest_first(search, chain);
-        for (std::size_t k = 0; k < chain.choices.size(); ++k)
-            chain.choices[k].left_out = left_out_of(search, chain, k);
         std::vector<CrossFit> steps;
         for (std::size_t k = 1; k < chain.choices.size(); ++k) steps.push_back(first_of(search, chain, k));
         selection.steps.insert(selection.steps.end(), steps.begin(), steps.end());

@@ -92,9 +92,10 @@ const Effect* find_effect(std::string_view name, std::span<const Effect* const> 
     return found == others.end() ? find_effect(name) : *found;
 }
 
-void put(const Effect& effect, PlantParameters& plant, std::span<const double> values) {
+void put(const Effect& effect, PlantParameters& plant, std::span<const double> values,
+         const std::string& stated_at) {
     if (effect.formula != nullptr)
-        add_formula(*effect.formula, plant, values);
+        add_formula(*effect.formula, plant, values, stated_at);
     else
         effect.apply(plant, values);
 }
@@ -120,18 +121,20 @@ EffectSetting vanishing_setting(const Effect& effect) {
     return setting;
 }
 
-void apply_effects(PlantParameters& plant, std::span<const EffectSetting> effects) {
+void apply_effects(PlantParameters& plant, std::span<const EffectSetting> effects,
+                   const std::string& stated_at) {
+    const std::string where = (stated_at.empty() ? "--effect" : stated_at) + ": ";
     for (std::size_t k = 0; k < effects.size(); ++k) {
         const Effect& effect = *effects[k].effect;
         FIDSERVO_DEMAND(effects[k].values.size() == effect.parameters.size());
         const auto earlier = effects.first(k);
         if (std::ranges::any_of(earlier, [&](const EffectSetting& other) { return other.effect == &effect; }))
-            throw InputError("--effect: " + std::string(effect.name) + ": an effect can be given once only");
+            throw InputError(where + std::string(effect.name) + ": an effect can be given once only");
         if (!has_part(plant, effect.part))
-            throw InputError("--effect: " + std::string(effect.name) + ": the rig has no " +
+            throw InputError(where + std::string(effect.name) + ": the rig has no " +
                              std::string(effect.block.substr(0, effect.block.find('.'))) +
                              " part for it to act on");
-        put(effect, plant, effects[k].values);
+        put(effect, plant, effects[k].values, stated_at);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "plant/effects/effect.h"
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace fidservo {
@@ -42,7 +43,9 @@ EffectSetting vanishing_setting(const Effect& effect);
 
 /// Puts effects into a plant's parameters. The order does not matter. Throws InputError if an effect is given
 /// twice, or if the rig lacks the part that it acts on.
-void apply_effects(PlantParameters& plant, std::span<const EffectSetting> effects);
+/// @param stated_at  as in StatedEffect; empty: they come from the option --effect
+void apply_effects(PlantParameters& plant, std::span<const EffectSetting> effects,
+                   const std::string& stated_at = {});
 
 /// The plant of a rig, with effects that its file does not state.
 StagePlant make_stage_plant(const Rig& rig, std::span<const EffectSetting> effects);

@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -154,7 +155,9 @@ struct Effect {
 
 /// Puts an effect into the parameters of a plant that has the part which it acts on. One value per parameter,
 /// within bounds.
-void put(const Effect& effect, PlantParameters& plant, std::span<const double> values);
+/// @param stated_at  as in StatedEffect
+void put(const Effect& effect, PlantParameters& plant, std::span<const double> values,
+         const std::string& stated_at = {});
 
 /// An effect with the values of its parameters, in its order.
 struct EffectSetting {

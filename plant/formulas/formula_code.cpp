@@ -13,6 +13,7 @@
 #include <numbers>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -118,6 +119,10 @@ std::string key_of(const FormulaEffect::Memory& memory) {
             return "delay." + memory.name;
     }
     return memory.name;
+}
+
+std::string extent_key(const FormulaEffect::Memory& memory) {
+    return key_of(memory) + (memory.kind == FormulaEffect::Memory::Kind::play ? ".width" : ".by");
 }
 
 /// muParser's message without its stop and without the place, which it counts from 0.
@@ -277,8 +282,7 @@ FormulaCode::FormulaCode(const FormulaEffect& effect) : effect_(effect), port_(f
     for (const FormulaEffect::Memory& memory : effect_.memories) {
         note(key_of(memory), memory.of, allowed);
         if (memory.kind != FormulaEffect::Memory::Kind::state)
-            note(key_of(memory) + (memory.kind == FormulaEffect::Memory::Kind::play ? ".width" : ".by"),
-                 memory.by, parameters);
+            note(extent_key(memory), memory.by, parameters);
     }
     id_ = count++;
 }
@@ -331,11 +335,32 @@ double FormulaCode::followed(std::size_t memory, std::span<const double> variabl
 double FormulaCode::extent(std::size_t memory, std::span<const double> parameters) const {
     Machine& here = machine();
     here.set({}, {}, parameters);
-    const double extent = here.extent(memory);
-    if (!(extent >= 0.0 && std::isfinite(extent)))
-        refuse(effect_.name + ": " + key_of(effect_.memories[memory]) + ": its width or delay is " +
-               std::to_string(extent) + "; allowed: not below 0");
-    return extent;
+    return here.extent(memory);
+}
+
+void FormulaCode::demand_extents(std::span<const double> parameters) const {
+    constexpr double longest_s = 10.0;
+    for (std::size_t k = 0; k < effect_.memories.size(); ++k) {
+        const FormulaEffect::Memory& memory = effect_.memories[k];
+        if (memory.kind == FormulaEffect::Memory::Kind::state) continue;
+        const bool is_delay = memory.kind == FormulaEffect::Memory::Kind::delay;
+        const double value = extent(k, parameters);
+        if (value >= 0.0 && (is_delay ? value <= longest_s : std::isfinite(value))) continue;
+        std::ostringstream what;
+        what << extent_key(memory) << ": is " << value << (is_delay ? " s" : "") << at_values(parameters)
+             << "; allowed: " << (is_delay ? "0 to 10 s" : "numbers not below 0");
+        throw FormulaFault(effect_.name, what.str());
+    }
+}
+
+std::string FormulaCode::at_values(std::span<const double> parameters) const {
+    std::ostringstream text;
+    const char* separator = " with ";
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+        text << separator << effect_.parameters[k].name << " = " << parameters[k];
+        separator = ", ";
+    }
+    return text.str();
 }
 
 }  // namespace fidservo::plant

@@ -7,6 +7,7 @@
 // if(c, a, b); pi. Neither assignments nor strings. a ^ b binds tighter than a sign before a, and -x^2 is
 // -(x^2).
 #include "core/formula_effect.h"
+#include "core/input_error.h"
 #include "plant/formulas/port.h"
 
 #include <bitset>
@@ -19,6 +20,21 @@ namespace fidservo::plant {
 
 inline constexpr std::size_t most_memories = 8;  ///< at one site
 inline constexpr std::size_t most_formula_parameters = 16;
+
+/// What a formula gives, with the values of its parameters, no machine has: "NAME: KEY: what; allowed".
+class FormulaFault : public InputError {
+  public:
+    /// @param effect  its name
+    /// @param what  the rest of the message
+    FormulaFault(const std::string& effect, const std::string& what)
+        : InputError(effect + ": " + what), effect_(effect) {}
+
+    const std::string& effect() const { return effect_; }
+    std::string rest() const { return what() + effect_.size() + 2; }  ///< the message behind the name
+
+  private:
+    std::string effect_;
+};
 
 class FormulaCode {
   public:
@@ -33,6 +49,9 @@ class FormulaCode {
     /// The names of the variables that its expressions use, in the site's order.
     std::vector<std::string> variable_names() const;
 
+    /// The values of its parameters for a message: " with drag = 5e-06, ...".
+    std::string at_values(std::span<const double> parameters) const;
+
     /// The formula's value. May be called from several threads: each has its own parser.
     /// @param variables  those of the site, in their order
     /// @param memories  those of this effect, in their order
@@ -43,8 +62,10 @@ class FormulaCode {
     /// or a delay.
     double followed(std::size_t memory, std::span<const double> variables, std::span<const double> memories,
                     std::span<const double> parameters) const;
-    /// The width of a play, in the unit of its input, or the time of a delay in s. Not below 0.
+    /// The width of a play, in the unit of its input, or the time of a delay in s.
     double extent(std::size_t memory, std::span<const double> parameters) const;
+    /// Throws FormulaFault if a width is below 0, a delay below 0 or above 10 s, or either no number.
+    void demand_extents(std::span<const double> parameters) const;
 
   private:
     explicit FormulaCode(const FormulaEffect& effect);

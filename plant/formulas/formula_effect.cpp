@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -46,10 +47,15 @@ std::vector<double> spread(const FormulaEffect::Parameter& parameter) {
 /// An optional parameter counts as its vanishing value within this share of its range.
 constexpr double negligible_share = 1e-3;
 
+bool is_of_effect_name(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
+}
+
 class FormulaOfName {
   public:
     explicit FormulaOfName(const FormulaEffect& text) : text_(text) {
-        if (text_.name.empty()) refuse("name", "is empty; allowed: a name");
+        if (text_.name.empty() || !std::ranges::all_of(text_.name, is_of_effect_name))
+            refuse("name", "allowed: letters, digits, _, - and ., so that options can name it");
         if (find_effect(text_.name) != nullptr)
             refuse("name", "is that of a listed effect; allowed: another one");
         const FormulaCode& code = FormulaCode::of(text_);
@@ -60,6 +66,10 @@ class FormulaOfName {
                    "more");
         starts_.reserve(text_.parameters.size());
         for (const FormulaEffect::Parameter& parameter : text_.parameters) add(parameter);
+        std::vector<double> typical;
+        typical.reserve(parameters_.size());
+        for (const EffectParameter& parameter : parameters_) typical.push_back(parameter.typical);
+        code.demand_extents(typical);
         effect_.name = text_.name;
         effect_.block = text_.block;
         effect_.part = code.port().part;
@@ -150,19 +160,20 @@ const Effect& effect_of(const FormulaEffect& text) {
     return known->effect();
 }
 
-void add_formula(const FormulaCode& code, PlantParameters& plant, std::span<const double> values) {
+void add_formula(const FormulaCode& code, PlantParameters& plant, std::span<const double> values,
+                 const std::string& stated_at) {
     switch (code.port().site) {
         case Site::carriage:
-            plant.axis.formulas.add(code, values);
+            plant.axis.formulas.add(code, values, stated_at);
             return;
         case Site::encoder:
-            plant.encoder.formulas.add(code, values);
+            plant.encoder.formulas.add(code, values, stated_at);
             return;
         case Site::micro:
-            plant.micro->formulas.add(code, values);
+            plant.micro->formulas.add(code, values, stated_at);
             return;
         case Site::camera:
-            plant.camera->formulas.add(code, values);
+            plant.camera->formulas.add(code, values, stated_at);
             return;
     }
 }

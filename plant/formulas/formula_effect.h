@@ -5,6 +5,7 @@
 #include "plant/effects/effect.h"
 
 #include <span>
+#include <string>
 
 namespace fidservo::plant {
 
@@ -15,6 +16,8 @@ namespace fidservo::plant {
 const Effect& effect_of(const FormulaEffect& text);
 
 /// Puts a formula into a plant's parameters.
-void add_formula(const FormulaCode& code, PlantParameters& plant, std::span<const double> values);
+/// @param stated_at  as in StatedEffect
+void add_formula(const FormulaCode& code, PlantParameters& plant, std::span<const double> values,
+                 const std::string& stated_at);
 
 }  // namespace fidservo::plant

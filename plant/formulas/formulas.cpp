@@ -18,10 +18,16 @@ std::span<const double> memories_of(const FormulaTerm& term, const FormulaMemory
     return std::span(memory.values).subspan(term.first_memory, term.code->effect().memories.size());
 }
 
+/// @param what  "KEY: what; allowed"
+[[noreturn]] void refuse(const FormulaCode& code, const std::string& stated_at, const std::string& what) {
+    if (stated_at.empty()) throw FormulaFault(code.effect().name, what);
+    throw InputError(stated_at + "." + what);
+}
+
 [[noreturn]] void refuse_value(const FormulaTerm& term, double value, std::span<const double> variables) {
     const PortDescription& port = term.code->port();
     std::ostringstream text;
-    text << term.code->effect().name << ": its formula gives ";
+    text << "formula: gives ";
     if (std::isnan(value))
         text << "no number";
     else
@@ -33,8 +39,9 @@ std::span<const double> memories_of(const FormulaTerm& term, const FormulaMemory
         text << separator << known[k].name << " = " << variables[k];
         separator = ", ";
     }
-    text << "; allowed: numbers up to " << port.limit << ' ' << port.unit;
-    throw InputError(text.str());
+    text << term.code->at_values(term.parameters) << "; allowed: numbers up to " << port.limit << ' '
+         << port.unit;
+    refuse(*term.code, term.stated_at, text.str());
 }
 
 /// Rate of a state and how it changes with the state.
@@ -71,14 +78,13 @@ double settled(const FormulaTerm& term, std::size_t k, FormulaMemory& memory,
 }
 
 std::size_t ring_size(double delay_s, double tick_s) {
-    constexpr double longest_s = 10.0;
-    if (delay_s > longest_s) throw InputError("delay: of more than 10 s; allowed: 10 s at most");
     return static_cast<std::size_t>(std::ceil(delay_s / tick_s)) + 2;
 }
 
 }  // namespace
 
-void Formulas::add(const FormulaCode& code, std::span<const double> parameters) {
+void Formulas::add(const FormulaCode& code, std::span<const double> parameters,
+                   const std::string& stated_at) {
     const FormulaEffect& effect = code.effect();
     bool vanishes = true;
     for (std::size_t k = 0; k < parameters.size(); ++k)
@@ -86,9 +92,15 @@ void Formulas::add(const FormulaCode& code, std::span<const double> parameters) 
             vanishes = false;
     if (vanishes) return;
     if (memories_ + effect.memories.size() > most_memories)
-        throw InputError(effect.name + ": state: with those of the other effects there are more than " +
-                         std::to_string(most_memories) + " quantities that remember; allowed: no more");
-    terms_.push_back({&code, {parameters.begin(), parameters.end()}, memories_});
+        refuse(code, stated_at,
+               "state: with those of the other effects there are more than " + std::to_string(most_memories) +
+                   " quantities that remember; allowed: no more");
+    try {
+        code.demand_extents(parameters);
+    } catch (const FormulaFault& fault) {
+        refuse(code, stated_at, fault.rest());
+    }
+    terms_.push_back({&code, {parameters.begin(), parameters.end()}, memories_, stated_at});
     memories_ += effect.memories.size();
     acting_.set(static_cast<std::size_t>(code.port().port));
     for (std::size_t k = 0; k < most_variables; ++k)

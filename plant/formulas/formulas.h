@@ -17,6 +17,7 @@
 #include <bitset>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace fidservo::plant {
@@ -25,6 +26,7 @@ struct FormulaTerm {
     const FormulaCode* code;
     std::vector<double> parameters;
     std::size_t first_memory;  ///< index of its first memory among those of the site
+    std::string stated_at;     ///< StatedEffect::stated_at, or empty
 };
 
 /// The state of the memories of a site's formulas. A plain value.
@@ -39,17 +41,18 @@ struct FormulaMemory {
 class Formulas {
   public:
     /// Adds a formula. Nothing is added where all sizes vanish. Throws InputError where there are too many
-    /// memories.
+    /// memories, and where FormulaCode::demand_extents() does.
     /// @param parameters  those of the effect, in its order
-    void add(const FormulaCode& code, std::span<const double> parameters);
+    /// @param stated_at  as in StatedEffect: with it an error is "STATED_AT.KEY: ...", else a FormulaFault
+    void add(const FormulaCode& code, std::span<const double> parameters, const std::string& stated_at = {});
 
     bool any() const { return !terms_.empty(); }
     bool act(Port port) const { return acting_.test(static_cast<std::size_t>(port)); }
     bool remember() const { return memories_ > 0; }
     bool use(std::size_t variable) const { return used_.test(variable); }
 
-    /// The sum of the formulas at a port. Throws InputError where a formula yields NaN or infinity, or more
-    /// than any machine has (PortDescription::limit).
+    /// The sum of the formulas at a port. Throws as add() does where a formula yields NaN or infinity, or
+    /// more than any machine has (PortDescription::limit).
     double value(Port port, std::span<const double> variables, const FormulaMemory& memory) const;
 
     /// The memories' state after the variables have had the given values for a long time.

@@ -9,6 +9,7 @@
 #include "plant/effects/catalogue.h"
 #include "src/cli/commands.h"
 #include "src/cli/session_options.h"
+#include "src/files/disk/output_paths.h"
 #include "src/files/rig/plate_file.h"
 #include "src/files/rig/rig_file.h"
 #include "src/process/progress.h"
@@ -37,11 +38,7 @@ void demand_sound(const StageOptions& options) {
         throw InputError("--check, --write-rig: a check writes no rig file; leave one of the two out");
     if (!options.check && options.out.empty())
         throw InputError("--out: missing: a new folder for the report and the recording");
-    std::error_code error;
-    if (!options.write_rig.empty() && std::filesystem::symlink_status(options.write_rig, error).type() !=
-                                          std::filesystem::file_type::not_found)
-        throw InputError(fmt::format("--write-rig: {}: exists already; give the name of a new file",
-                                     options.write_rig.string()));
+    demand_new_file("--write-rig", options.write_rig);
     if (!options.out.empty() && options.out.lexically_normal() == options.write_rig.lexically_normal())
         throw InputError(fmt::format("--out, --write-rig: {}: are one name", options.out.string()));
 }
@@ -83,10 +80,14 @@ int run_check(const StageOptions& options, const Rig& rig, Session& session) {
 
 int run_calibration(const StageOptions& options, const Rig& rig, Session& session) {
     session.record_to(options.out / "recording", "stage calibration");
-    if (const auto homed = session.home(); !homed) return end_of_run("homing", homed.error());
+    const auto leave = [&](const char* what, const Failure& why) {
+        session.leave_recording();
+        return end_of_run(what, why);
+    };
+    if (const auto homed = session.home(); !homed) return leave("homing", homed.error());
     auto shots = survey(session, StagePlan{});
-    if (const auto closed = session.end_recording(); !closed && shots) throw RunFault(closed.error().text);
-    if (!shots) return end_of_run("calibrate stage", shots.error());
+    if (!shots) return leave("calibrate stage", shots.error());
+    if (const auto closed = session.end_recording(); !closed) throw RunFault(closed.error().text);
     StageCalibration calibration{std::move(*shots), {}, {}, session.now_s()};
     auto numbers = stage_numbers(rig, calibration.shots);
     if (!numbers) return end_of_run("calibrate stage", numbers.error());

@@ -6,6 +6,7 @@
 #include "core/rig.h"
 #include "src/cli/commands.h"
 #include "src/cli/session_options.h"
+#include "src/files/disk/output_paths.h"
 #include "src/files/rig/plate_file.h"
 #include "src/files/rig/rig_file.h"
 #include "src/record/record_experiments.h"
@@ -42,11 +43,15 @@ int record_rest(const RecordOptions& options) {
         throw InputError("--resume: a recording at rest is made anew; it is for EXPERIMENT and campaign");
     const Rig rig = load_rig(devices.rig_file);
     const Plate plate = rig_plate(rig, devices.rig_file);
+    demand_new_folder(options.what.out);
     Session session(devices, rig, plate, plate);
     session.record_to(options.what.out, "rest", options.what.frames ? KeepFrames::yes : KeepFrames::no);
     const Status held = session.observe(options.duration_s.value_or(usual_s));
+    if (!held && held.error().reason != Reason::stopped) {
+        session.leave_recording();
+        throw RunFault(held.error().text);
+    }
     check(session.end_recording());
-    if (!held && held.error().reason != Reason::stopped) throw RunFault(held.error().text);
     fmt::print("{:.3f} s recorded in {}\n", session.elapsed_s(), options.what.out.string());
     if (!camera_is_simulated(devices)) fmt::print("{}\n", text_of(session.frame_counts()));
     return exit_done;

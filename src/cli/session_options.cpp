@@ -5,6 +5,7 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "src/cli/commands.h"
+#include "src/files/disk/output_paths.h"
 #include "src/files/rig/plate_file.h"
 
 #include <cstdio>
@@ -75,6 +76,7 @@ void add_recording_option(CLI::App& command, std::filesystem::path& out) {
 int recorded(Session& session, const std::filesystem::path& out, const std::string& experiment,
              const std::function<int()>& work) {
     if (out.empty()) return work();
+    demand_new_folder(out);
     session.record_to(out, experiment);
     try {
         const int exit_code = work();

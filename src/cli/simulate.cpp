@@ -5,10 +5,12 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
+#include "plant/formulas/formula_code.h"
 #include "src/cli/commands.h"
 #include "src/cli/session_options.h"
 #include "src/files/recording/utc_time.h"
 #include "src/files/recording/writer.h"
+#include "src/files/rig/effects_file.h"
 #include "src/files/rig/rig_file.h"
 #include "src/process/progress.h"
 #include "src/simulation/filmed_recording.h"
@@ -43,7 +45,7 @@ std::string utc_time_of(const std::string& text) {
     throw InputError(fmt::format("--recorded-at: {}: must be a time in UTC like 2026-11-02T08:15:00Z", text));
 }
 
-int run_simulate(const SimulateOptions& options) {
+int record_on_simulation(const SimulateOptions& options) {
     const Rig rig = load_rig(options.rig_file);
     if (options.frames && (!rig.camera || !rig.fiducials))
         throw InputError(
@@ -70,6 +72,15 @@ int run_simulate(const SimulateOptions& options) {
     progress.finish();
     fmt::print("{} recording{} in {}\n", plan.size(), plan.size() == 1 ? "" : "s", options.out.string());
     return exit_done;
+}
+
+/// What a formula gives shows while it is simulated, far from where its file was read.
+int run_simulate(const SimulateOptions& options) {
+    try {
+        return record_on_simulation(options);
+    } catch (const plant::FormulaFault& fault) {
+        fail_at_formula(options.effects_file, fault);
+    }
 }
 
 }  // namespace

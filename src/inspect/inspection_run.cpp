@@ -36,10 +36,11 @@ void home(Session& session, const OutputFolder& output) {
     set_aside(recording);
     session.record_to(recording, "homing");
     const auto homed = session.home();
-    const auto closed = session.end_recording();
-    if (!homed)
+    if (!homed) {
+        session.leave_recording();
         throw RunFault(fmt::format("homing: {}: {}", name_of(homed.error().reason), homed.error().text));
-    if (!closed) throw RunFault(closed.error().text);
+    }
+    if (const auto closed = session.end_recording(); !closed) throw RunFault(closed.error().text);
 }
 
 std::string one_line(const Visit& visit) {

@@ -59,6 +59,8 @@ std::vector<PlannedRun> open_output(const ExperimentOptions& options, const Reco
     } else if (std::filesystem::exists(options.out)) {
         throw InputError(
             fmt::format("--out {}: exists already; --resume goes on with it", options.out.string()));
+    } else {
+        demand_new_folder(options.out);
     }
     return plan.runs;
 }

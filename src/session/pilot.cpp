@@ -66,9 +66,8 @@ void Pilot::register_at_end_stop(std::int64_t stop_count) {
 }
 
 std::optional<EncoderZero> Pilot::encoder_zero() const {
-    if (registered_by.empty()) return std::nullopt;
-    const double std_count =
-        registered ? std::hypot(rounding_std_count, platform_std_mm / params.count_mm) : 1.0;
+    if (!registered) return std::nullopt;
+    const double std_count = std::hypot(rounding_std_count, platform_std_mm / params.count_mm);
     return EncoderZero{-count_zero_mm / params.count_mm, std_count, registered_by};
 }
 

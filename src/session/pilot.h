@@ -44,7 +44,8 @@ class Pilot {
     /// Registers the position of the end stop, which is accurate to a count.
     void register_at_end_stop(std::int64_t stop_count);
 
-    /// The encoder's zero, by the registration; empty before homing.
+    /// The encoder's zero, by the registration; empty before a tag has shown it: a carriage that is held
+    /// anywhere looks like one at its end stop.
     std::optional<EncoderZero> encoder_zero() const;
 
     /// The carriage's position by the registration, mm.

@@ -47,9 +47,20 @@ void Sight::look_for(const vision::Frame& frame, const std::vector<vision::Expec
         found_.push_back(tag.detection);
 }
 
-void Sight::keep_refined(const Result<vision::PositionFit>& fit) {
+std::optional<TagDetection> Sight::as_shown(const vision::RefinedTag& tag, const vision::Frame& frame) const {
+    if (!tag.camera_known) return tag.detection;
+    vision::RefinementOptions free;
+    free.noise = noise_;
+    free.blur_px = tag.blur_px;
+    const auto shown = vision::refine_tag(frame.image, tag.detection, free);
+    if (!shown) return std::nullopt;
+    return shown->detection;
+}
+
+void Sight::keep_refined(const Result<vision::PositionFit>& fit, const vision::Frame& frame) {
     if (!fit) return;
-    if (fit->tag.explained > 0.0) measured_ = {fit->tag.detection};
+    if (fit->tag.explained > 0.0)
+        if (const auto shown = as_shown(fit->tag, frame)) measured_ = {*shown};
     for (TagDetection& tag : found_)
         if (tag.tag_id == fit->tag.detection.tag_id) tag = fit->tag.detection;
 }
@@ -66,7 +77,7 @@ Result<vision::PositionFit> Sight::locate(const vision::Frame& frame, double exp
     look_for(frame, {expected(tag, expected_s_mm)});
     const vision::LocateOptions options{.predicted_s_mm = expected_s_mm, .noise = noise_};
     auto fit = vision::locate_camera(camera_, nominal_, frame, found_, tag.id, options);
-    keep_refined(fit);
+    keep_refined(fit, frame);
     return fit;
 }
 
@@ -113,7 +124,7 @@ Result<vision::PositionFit> Sight::locate_anywhere(const vision::Frame& frame) {
     if (!chosen) return tl::make_unexpected(chosen.error());
     if (*chosen) {
         auto fit = vision::locate_camera(camera_, nominal_, frame, found_, **chosen, {.noise = noise_});
-        keep_refined(fit);
+        keep_refined(fit, frame);
         return fit;
     }
     if (!found_.empty())

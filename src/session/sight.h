@@ -34,7 +34,8 @@ class Sight {
 
     /// The tags found in the last frame; the one used for the position has refined corners.
     const std::vector<TagDetection>& found() const { return found_; }
-    /// Of these the one used for the position, if its corners could be measured.
+    /// Of these the one used for the position, if its corners could be measured; as the picture shows them,
+    /// not as the camera of the rig file would have to: a recording of them can contradict that camera.
     const std::vector<TagDetection>& measured() const { return measured_; }
 
   private:
@@ -42,7 +43,9 @@ class Sight {
     void look_for(const vision::Frame& frame, const std::vector<vision::ExpectedTag>& expected);
     /// Id of the tag to be used for the position; empty if no tag in view is of the plate.
     Result<std::optional<int>> tag_that_others_confirm() const;
-    void keep_refined(const Result<vision::PositionFit>& fit);
+    /// A measured tag with all eight coordinates of its corners free.
+    std::optional<TagDetection> as_shown(const vision::RefinedTag& tag, const vision::Frame& frame) const;
+    void keep_refined(const Result<vision::PositionFit>& fit, const vision::Frame& frame);
 
     CameraGeometry camera_;
     vision::GreyNoise noise_;

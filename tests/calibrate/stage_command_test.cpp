@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,8 @@ TEST(CalibrateStageCommand, WhatIsWrong_IsSaidInALineAndNothingIsMade) {
     expect_refusal({"--out", "there"}, folder, {"there", "exists already"});
     folder.write("old.yaml", "");
     expect_refusal({"--out", "o", "--write-rig", "old.yaml"}, folder, {"old.yaml", "exists already"});
+    expect_refusal({"--out", "o", "--write-rig", "old.yaml/new.yaml"}, folder,
+                   {"--write-rig: old.yaml/new.yaml: cannot be made in old.yaml: no folder"});
     const auto effect = rig_with_effect(folder, "{ name: pixel_scale, factor: 1.001 }").string();
     expect_refusal({"--rig", effect, "--out", "o", "--write-rig", "new.yaml"}, folder,
                    {"pixel_scale", "twice", "--sim-rig"});
@@ -96,6 +99,22 @@ TEST(SlowCalibrateStageCommand, CalibratedRigFile_IsHealthyAndItsDriftIsFound) {
         run_program({"calibrate", "stage", "--check", "--sim-rig", truth, "--out", "check"}, folder.path());
     EXPECT_EQ(drifted.exit_code, 1) << drifted.out << drifted.err;
     EXPECT_TRUE(std::filesystem::exists(folder / "check/check.json"));
+}
+
+/// The signal comes a second after the tuning, with which homing ends: the survey takes several.
+TEST(SlowCalibrateStageCommand, Interrupted_LeavesARecordingThatSaysSo) {
+    const TemporaryFolder folder;
+    const std::string script = "cd '" + folder.path().string() + "'; '" + std::string(FIDSERVO_PROGRAM) +
+                               "' calibrate stage --out o > out 2> err & child=$!; "
+                               "until grep -q tuned: err || ! kill -0 $child; do sleep 0.02; done; "
+                               "sleep 1; kill -INT $child; wait $child";
+    EXPECT_NE(std::system(script.c_str()), 0);
+    EXPECT_NE(text_of(folder / "err").find("calibrate stage: stopped: stopped by the user"),
+              std::string::npos)
+        << text_of(folder / "err");
+    const std::string recording = text_of(folder / "o/recording/recording.yaml");
+    EXPECT_NE(recording.find("finished: false"), std::string::npos) << recording;
+    EXPECT_NE(recording.find("how: \"end stop, then tag"), std::string::npos) << recording;
 }
 
 }  // namespace

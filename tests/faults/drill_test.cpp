@@ -122,6 +122,9 @@ TEST_F(SlowDrills, EveryFaultThatStopsARun_IsNamedInHomingToo) {
         const DrillEnd end = drill_->run_from_start(name, {parse_fault(promise.kind)});
         EXPECT_TRUE(end.stopped);
         EXPECT_NE(end.text.find("homing: "), std::string::npos) << end.text.substr(0, 2000);
+        EXPECT_NE(testing::text_of_file(drill_->out(name) / "recordings/homing/recording.yaml")
+                      .find("finished: false"),
+                  std::string::npos);
         EXPECT_NE(end.text.find(promise.reason), std::string::npos) << end.text.substr(0, 2000);
         EXPECT_TRUE(end.outputs_zero);
     }

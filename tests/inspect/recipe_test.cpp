@@ -112,6 +112,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"ViewNameTwice", "name: right", "name: left", "exists already"},
         Mistake{"NoSuchImage", "longest_defect_um: 20", "longest_defect_um: 20, image: nowhere.png",
                 "no such file"},
+        Mistake{"NoSuchPlate", "name: small", "name: small\nsimulation: {plate: nowhere.yaml}",
+                "simulation.plate: nowhere.yaml: there is no such file as nowhere.yaml"},
         Mistake{"ExceptionForNoSite", "tags: [10, 20]", "tags: [10, 20]\n  exceptions: [{tag: 11}]",
                 "11 is no site"},
         Mistake{"SearchBelowTolerance", "size_tolerance_um: 15}", "size_tolerance_um: 15, search_um: 5}",

@@ -141,9 +141,13 @@ TEST(Session, Home_CarriageJams_IsSaidWhereverItIsOnItsWay) {
     for (const double from_s : {0.0, 0.4, 0.9}) {
         SCOPED_TRACE(from_s);
         const auto rig = reference_rig_in_simulation();
+        const testing::TemporaryFolder folder;
         Session session = session_with(rig, {FaultKind::macro_jammed, from_s});
+        session.record_to(folder / "homing", "homing");
         const auto homed = session.home();
+        session.leave_recording();
         ASSERT_FALSE(homed);
+        EXPECT_FALSE(read_recording(folder / "homing").encoder_zero) << "nothing has shown where it is";
         EXPECT_EQ(homed.error().reason, Reason::device);
         EXPECT_NE(homed.error().text.find("the macro stage does not answer"), std::string::npos)
             << homed.error().text;

@@ -2,9 +2,11 @@
 #include "src/session/simulated_rig.h"
 
 #include "core/rig.h"
+#include "plant/actual_camera.h"
 #include "plant/effects/catalogue.h"
 #include "src/session/sight.h"
 #include "tests/session/watched_rig.h"
+#include "vision/tags/tag_choice.h"
 
 #include <cmath>
 #include <string>
@@ -108,6 +110,30 @@ TEST(SimulatedRig, DeviatingCamera_IsWhatTheFramesShow) {
     ASSERT_FALSE(tags.empty());
     const Eigen::Vector2d diagonal = tags[0].corners_px[1] - tags[0].corners_px[3];
     EXPECT_NEAR(diagonal.norm(), 1.05 * 300.0 * std::sqrt(2.0), 0.5);
+}
+
+/// A square tag seen by a tilted camera is none. If the corners on record were fitted with the rig file's
+/// camera, which is not tilted, they would be those of a square, some hundredths of a pixel beside.
+TEST(SimulatedRig, TiltedCamera_CornersOnRecordAreThoseOfThePicture) {
+    const plant::CameraDeviation tilted{.tilt_rad = {0.002, 0.0015}};
+    RigAndCamera set(tilted);
+    Sight sight(set.camera, reference_plate());
+    const plant::ActualCamera actual = plant::actual_camera(set.camera.geometry, tilted);
+    for (int k = 0; k < 500; ++k) set.rig->write({});
+    for (int seen = 0; seen < 10;) {
+        set.rig->write({});
+        const auto frame = set.rig->poll();
+        if (!frame) continue;
+        ++seen;
+        const auto fit = sight.locate_anywhere(*frame);
+        ASSERT_TRUE(fit);
+        ASSERT_EQ(sight.measured().size(), 1u);
+        const TagDetection& tag = sight.measured().front();
+        const auto corners_mm = vision::corners_mm(*vision::find_tag(reference_plate(), tag.tag_id));
+        const double s_mm = plant::camera_position_mm(set.rig->truth());
+        for (std::size_t c = 0; c < 4; ++c)
+            EXPECT_LT((tag.corners_px[c] - actual.image_px(corners_mm[c], s_mm)).norm(), 0.01) << c;
+    }
 }
 
 TEST(SimulatedRig, SnapshotRestored_SameReadingsAndSameBytes) {

@@ -8,6 +8,7 @@
 #include "src/files/rig/rig_edit.h"
 #include "src/files/rig/rig_file.h"
 #include "tests/src/message_of.h"
+#include "tests/src/run_program.h"
 #include "tests/src/temporary_folder.h"
 
 #include <filesystem>
@@ -104,6 +105,15 @@ TEST(EffectsFile, Mistakes_AreNamedWithFileLineKeyAndWhatIsAllowed) {
     EXPECT_THAT(mistake(two_effects, "name: sticky_cable", "name: air_drag"),
                 HasSubstr("name of two effects"));
     EXPECT_THAT(mistake(two_effects, "name: air_drag", "name: cogging"), HasSubstr("listed effect"));
+    for (const char* name : {"\"a:b=c,d\"", "air drag", "\"air,drag\""})
+        EXPECT_THAT(mistake(two_effects, "name: air_drag", std::string("name: ") + name),
+                    ::testing::AllOf(HasSubstr("effects.yaml:3: effects[0].name: "),
+                                     HasSubstr("allowed: letters, digits, _, - and .")));
+    EXPECT_THAT(mistake(two_effects, "by: 0.01 * wide", "by: 3 * wide"),
+                HasSubstr("effects[1].delay.late.by: 3 * wide: is 15 s with k = 0.01, hard = 0, wide = 5; "
+                          "allowed: 0 to 10 s"));
+    EXPECT_THAT(mistake(two_effects, "width: wide", "width: -wide"),
+                HasSubstr("effects[1].play.stretched.width: -wide: is -5 with "));
     EXPECT_THAT(mistake(two_effects, "fidservo-effects/1", "fidservo-effects/9"),
                 HasSubstr("fidservo-effects/1"));
     EXPECT_THAT(mistake(two_effects, "width: wide", "by: wide"), HasSubstr("by"));
@@ -151,6 +161,46 @@ TEST(EffectsFile, ParameterInARigFile_HasItsTypicalValueWhereNoneIsGiven) {
         load_rig(folder.write("rig.yaml", text_of(assets / "rig.yaml") + "\neffects:\n" + entries));
     EXPECT_EQ(plant::setting_of(rig.effects[0]).values[0], 2e-6);
     EXPECT_EQ(plant::setting_of(rig.effects[1]).values[0], 0.01);
+}
+
+/// The values decide whether a delay can be, and what a formula gives: both are known only with them.
+TEST(EffectsFile, ValuesOfARigFileThatNoMachineHas_AreNamedWithFileLineAndKey) {
+    const TemporaryFolder folder;
+    const auto rig_with = [&](const char* value) {
+        const std::string entry = fmt::format(
+            "\neffects:\n  - name: late_drag\n    block: macro.friction\n    acts_on: macro.friction\n"
+            "    formula: 10 * d * late\n    parameters:\n"
+            "      d: {{bounds: [0, 100], typical: 0.1, value: {}}}\n"
+            "    delay: {{late: {{of: command, by: d}}}}\n",
+            value);
+        const auto file = folder.write(
+            "rig.yaml", text_of(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml") + entry);
+        std::filesystem::copy_file(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "preisach_fod.csv",
+                                   folder / "preisach_fod.csv",
+                                   std::filesystem::copy_options::overwrite_existing);
+        return file;
+    };
+    EXPECT_THAT(message_of([&] { (void)load_rig(rig_with("20")); }),
+                ::testing::ContainsRegex("rig.yaml:[0-9]+: effects.0..delay.late.by: d: is 20 s with d = 20; "
+                                         "allowed: 0 to 10 s"));
+    const Rig rig = load_rig(rig_with("9"));
+    EXPECT_THAT(message_of([&] {
+                    const plant::StagePlant plant = plant::make_stage_plant(rig);
+                    plant::StageState state = plant::start(plant, 50.0, 1);
+                    for (int tick = 0; tick < 10'000; ++tick) plant::advance(plant, state, 4.0, 0.0);
+                }),
+                ::testing::ContainsRegex("rig.yaml:[0-9]+: effects.0..formula: gives [0-9.]+ V"));
+}
+
+TEST(EffectsFile, WhatAFormulaGivesInASimulation_NamesFileLineAndKey) {
+    const TemporaryFolder folder;
+    folder.write("effects.yaml", two_effects);
+    const auto run = testing::run_program({"simulate", "macro-pulses", "--effects-file", "effects.yaml",
+                                           "--effect", "sticky_cable:k=0.1,hard=1", "--out", "out"},
+                                          folder.path());
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, HasSubstr("fidservo: effects.yaml:14: effects[1].formula: -k * "));
+    EXPECT_THAT(run.err, HasSubstr("with k = 0.1, hard = 1, wide = 5; allowed: numbers up to 100 V"));
 }
 
 /// docs/effects.md lists what the program knows.

@@ -13,11 +13,21 @@
 namespace fidservo {
 
 void demand_new_file(const char* option, const std::filesystem::path& file) {
+    namespace fs = std::filesystem;
     std::error_code error;
-    if (!file.empty() &&
-        std::filesystem::symlink_status(file, error).type() != std::filesystem::file_type::not_found)
+    if (file.empty()) return;
+    if (fs::symlink_status(file, error).type() != fs::file_type::not_found)
         throw InputError(
             fmt::format("{}: {}: exists already; give the name of a new file", option, file.string()));
+    const auto above = [](const fs::path& path) {
+        return path.has_parent_path() ? path.parent_path() : fs::path(".");
+    };
+    fs::path folder = above(file);
+    while (!fs::exists(folder, error)) folder = above(folder);
+    if (!fs::is_directory(folder, error) || ::access(folder.c_str(), W_OK) != 0)
+        throw InputError(fmt::format("{}: {}: cannot be made in {}: {}", option, file.string(),
+                                     folder.string(),
+                                     fs::is_directory(folder, error) ? std::strerror(errno) : "no folder"));
 }
 
 void make_output_folder(const std::filesystem::path& folder) {
@@ -28,6 +38,12 @@ void make_output_folder(const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder, error);
     if (error)
         throw InputError(fmt::format("--out: {}: cannot be made: {}", folder.string(), error.message()));
+}
+
+void demand_new_folder(const std::filesystem::path& folder) {
+    make_output_folder(folder);
+    std::error_code ignored;
+    std::filesystem::remove(folder, ignored);
 }
 
 void set_aside(const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 
 #include "core/input_error.h"
 #include "plant/effects/catalogue.h"
+#include "plant/formulas/formula_code.h"
 #include "plant/formulas/formula_effect.h"
 #include "src/files/text/yaml_reader.h"
 
@@ -142,6 +143,17 @@ std::vector<const plant::Effect*> read_effects_file(const YamlValue& root) {
     }
     if (effects.empty()) root.at("effects").fail("has none; allowed: one effect or more");
     return effects;
+}
+
+void fail_at_formula(const YamlValue& map, const plant::FormulaFault& fault) {
+    fail_at_key(map, fault.effect(), fault.what());
+}
+
+void fail_at_formula(const std::filesystem::path& file, const plant::FormulaFault& fault) {
+    const YamlValue root = YamlValue::load(file);
+    for (const YamlValue& item : root.at("effects").items())
+        if (item.at("name").text() == fault.effect()) fail_at_formula(item, fault);
+    throw plant::FormulaFault(fault);
 }
 
 void demand_effects(const char* option, const std::vector<std::string>& names,

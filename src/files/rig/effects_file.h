@@ -13,12 +13,21 @@
 namespace fidservo {
 
 class YamlValue;
+namespace plant {
+class FormulaFault;
+}
 
 /// The effects of a file, in its order. Throws InputError with file, line and key where it is none, an effect
 /// cannot be evaluated, or two have one name.
 std::vector<const plant::Effect*> load_effects_file(const std::filesystem::path& file);
 /// The effects of a parsed file.
 std::vector<const plant::Effect*> read_effects_file(const YamlValue& root);
+
+/// Fails at the key of an effect that a fault of its formula names.
+/// @param map  the effect as an effects file or a rig file states it
+[[noreturn]] void fail_at_formula(const YamlValue& map, const plant::FormulaFault& fault);
+/// The same of an effect of an effects file; throws the fault itself if the file has none of its name.
+[[noreturn]] void fail_at_formula(const std::filesystem::path& file, const plant::FormulaFault& fault);
 
 /// Throws InputError that names the option if one of its names is of no effect.
 /// @param formulas  effects known besides the catalogue

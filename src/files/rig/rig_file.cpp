@@ -4,6 +4,7 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
+#include "plant/formulas/formula_code.h"
 #include "src/files/rig/effects_file.h"
 #include "src/files/rig/fod_file.h"
 #include "src/files/rig/rig_camera.h"
@@ -185,6 +186,18 @@ StatedEffect read_listed_effect(const YamlValue& item) {
     return effect;
 }
 
+/// Fails at the item if its effect, with the values that it states, cannot be.
+void demand_setting(const StatedEffect& effect, const YamlValue& item) {
+    try {
+        const plant::EffectSetting setting = plant::setting_of(effect);
+        if (setting.effect->formula != nullptr) setting.effect->formula->demand_extents(setting.values);
+    } catch (const plant::FormulaFault& fault) {
+        fail_at_formula(item, fault);
+    } catch (const InputError& error) {
+        item.fail(error.what());
+    }
+}
+
 std::vector<StatedEffect> read_effects(const YamlValue& list) {
     std::vector<StatedEffect> effects;
     for (const YamlValue& item : list.items()) {
@@ -192,11 +205,8 @@ std::vector<StatedEffect> read_effects(const YamlValue& list) {
             effects.emplace_back(item.find("formula") ? read_stated_formula(item) : read_listed_effect(item));
         if (std::ranges::count(effects, effect.name, &StatedEffect::name) > 1)
             item.at("name").fail("is stated twice; an effect can be stated once only");
-        try {
-            plant::setting_of(effect);
-        } catch (const InputError& error) {
-            item.fail(error.what());
-        }
+        effect.stated_at = item.place();
+        demand_setting(effect, item);
     }
     return effects;
 }

@@ -329,6 +329,10 @@ const std::filesystem::path& YamlValue::source() const {
     return impl_->file;
 }
 
+std::string YamlValue::place() const {
+    return fmt::format("{}:{}: {}", impl_->file.string(), impl_->line, impl_->path);
+}
+
 void YamlValue::fail(std::string_view message) const {
     const std::string where = impl_->path.empty() ? "" : impl_->path + ": ";
     fail_at(impl_->file, impl_->line, fmt::format("{}{}: {}", where, shown(impl_->node), message));

@@ -60,6 +60,8 @@ class YamlValue {
 
     const std::filesystem::path& source() const;  ///< the file that this is read from
 
+    std::string place() const;  ///< "FILE:LINE: KEY"
+
     /// Throws InputError "FILE:LINE: KEY: VALUE: message".
     [[noreturn]] void fail(std::string_view message) const;
 

@@ -202,7 +202,11 @@ Recipe read_recipe(const YamlValue& root, const std::filesystem::path& file, con
         recipe.camera_reconnect_s = reconnect->number({0.0, 3600.0});
     if (const auto simulation = root.find("simulation")) {
         simulation->allow_only({"plate", "seed"});
-        if (const auto plate = simulation->find("plate")) recipe.simulation.plate = plate->file();
+        if (const auto plate = simulation->find("plate")) {
+            if (!std::filesystem::is_regular_file(plate->file()))
+                plate->fail(fmt::format("there is no such file as {}", plate->file().string()));
+            recipe.simulation.plate = plate->file();
+        }
         if (const auto seed = simulation->find("seed"))
             recipe.simulation.seed = static_cast<std::uint64_t>(seed->integer(0, 2147483647));
     }

@@ -135,6 +135,18 @@ TEST(ReferToTravel, HomedRecordings_StayAsTheyAre) {
         }
 }
 
+/// As where a file was lost: detections of which nobody can say where the carriage was.
+TEST(ReferToTravel, DetectionsWithoutRows_AreOfNoKnownPlace) {
+    const Recording whole = recorded("integrated");
+    Recording recording = whole;
+    recording.rows.clear();
+    EXPECT_NO_THROW((void)Evidence(reference_rig(), {recording, whole}));
+    recording.encoder_zero.reset();
+    ASSERT_FALSE(recording.detections.empty());
+    EXPECT_NE(refer_to_travel(recording, reference_rig()), PlacesFrom::tags);
+    EXPECT_NO_THROW((void)Evidence(reference_rig(), {recording, whole}));
+}
+
 TEST(ReferToTravel, StatedZero_IsTaken_IfItIsKnownToHalfACount) {
     const Recording homed = recorded("integrated");
     Recording recording = counted_from(homed, 700.0);

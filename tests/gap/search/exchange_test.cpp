@@ -44,6 +44,29 @@ TEST(WithoutNeedless, WhereAGapIsLeft_NothingIsLeftOut) {
                 ElementsAre("drive_offset", "drive_gain"));
 }
 
+Chain unhindered(const Hypothesis& truth, const Hypothesis& found) {
+    const Evidence evidence = testing::campaign(truth, {"macro-sweep", "macro-pulses", "micro-steps"});
+    const std::vector<Candidate> all = candidates(evidence, {}, {});
+    const Search search(evidence, all, {});
+    return without_hindrances(search, chain_of(search, all, found));
+}
+
+TEST(WithoutHindrances, EffectBesideWhichTheRestIsOffItsOptimum_IsLeftOut) {
+    const Chain chain =
+        unhindered(effects({"payload:mass_factor=1.2"}),
+                   effects({"payload:mass_factor=1.15", "viscous_friction:damping_V_s_per_mm=1e-5"}));
+    ASSERT_EQ(chain.choices.size(), 1u);
+    EXPECT_EQ(chain.choices[0].candidate->effect->name, "payload");
+    EXPECT_NEAR(chain.fitted.of_half[0][0].values[0], 1.2, 0.005);
+}
+
+TEST(WithoutHindrances, EffectsThatAreNeeded_StayAndSayWhatIsLeftWithoutThem) {
+    const Hypothesis truth = effects({"payload:mass_factor=1.2", "hall_gain:factor=1.01"});
+    const Chain chain = unhindered(truth, truth);
+    ASSERT_EQ(chain.choices.size(), 2u);
+    for (const Choice& choice : chain.choices) EXPECT_GT(choice.left_out.loss, chain.fitted.loss);
+}
+
 }  // namespace
 
 }  // namespace fidservo

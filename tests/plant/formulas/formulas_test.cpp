@@ -72,10 +72,33 @@ TEST(Formulas, NoNumberOrTooLarge_IsAnErrorThatSaysWhere) {
         (void)formulas.value(Port::friction, at_speed(-4.0), {});
         FAIL();
     } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("of_test: its formula gives"));
-        EXPECT_THAT(error.what(), testing::HasSubstr("at speed = -4; allowed: numbers up to 100 V"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("of_test: formula: gives"));
+        EXPECT_THAT(error.what(),
+                    testing::HasSubstr("at speed = -4 with a = 1; allowed: numbers up to 100 V"));
     }
     EXPECT_THROW((void)formulas.value(Port::friction, at_speed(1e6), {}), InputError);
+}
+
+TEST(Formulas, NoNumberOfAFormulaThatAFileStates_NamesFileLineAndKey) {
+    Formulas formulas;
+    formulas.add(
+        FormulaCode::of(formula_text("macro.friction", "macro.friction", "a * sqrt(speed)", {{"a", 1.0}})),
+        std::array{3.0}, "rig.yaml:36: effects[0]");
+    try {
+        (void)formulas.value(Port::friction, at_speed(-4.0), {});
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), testing::StartsWith("rig.yaml:36: effects[0].formula: gives "));
+        EXPECT_THAT(error.what(), testing::HasSubstr(" with a = 3; allowed: "));
+    }
+}
+
+TEST(Formulas, DelayThatCannotBe_IsRefusedBeforeAnythingMoves) {
+    const FormulaCode& code = FormulaCode::of(remembering(Kind::delay, "speed", "b"));
+    Formulas formulas;
+    EXPECT_NO_THROW(formulas.add(code, std::array{1.0, 10.0}));
+    for (const double delay_s : {10.1, -0.001})
+        EXPECT_THROW(formulas.add(code, std::array{1.0, delay_s}), FormulaFault) << delay_s;
 }
 
 TEST(Formulas, StateThatRelaxes_FollowsTheExponentialExactly) {
