@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plant/formulas/formulas.h"
 
-#include "core/input_error.h"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -34,7 +32,7 @@ std::span<const double> memories_of(const FormulaTerm& term, const FormulaMemory
         separator = ", ";
     }
     text << "; allowed: numbers up to " << port.limit << ' ' << port.unit;
-    throw InputError(text.str());
+    throw FormulaValueError(term.code->effect().name, text.str());
 }
 
 /// Rate of a state and how it changes with the state.
@@ -71,24 +69,39 @@ double settled(const FormulaTerm& term, std::size_t k, FormulaMemory& memory,
 }
 
 std::size_t ring_size(double delay_s, double tick_s) {
-    constexpr double longest_s = 10.0;
-    if (delay_s > longest_s) throw InputError("delay: of more than 10 s; allowed: 10 s at most");
     return static_cast<std::size_t>(std::ceil(delay_s / tick_s)) + 2;
+}
+
+bool vanishes(const FormulaTerm& term) {
+    const std::vector<FormulaEffect::Parameter>& known = term.code->effect().parameters;
+    for (std::size_t k = 0; k < term.parameters.size(); ++k)
+        if (known[k].role == "size" && term.parameters[k] != known[k].vanishing) return false;
+    return true;
 }
 
 }  // namespace
 
 void Formulas::add(const FormulaCode& code, std::span<const double> parameters) {
+    std::vector<FormulaTerm> terms = std::move(terms_);
+    FormulaTerm own{&code, {parameters.begin(), parameters.end()}, 0};
+    const auto before = std::ranges::find(terms, &code, &FormulaTerm::code);
+    if (before != terms.end())
+        *before = std::move(own);
+    else
+        terms.push_back(std::move(own));
+    *this = Formulas();
+    for (FormulaTerm& term : terms)
+        if (!vanishes(term)) take_in(std::move(term));
+}
+
+void Formulas::take_in(FormulaTerm term) {
+    const FormulaCode& code = *term.code;
     const FormulaEffect& effect = code.effect();
-    bool vanishes = true;
-    for (std::size_t k = 0; k < parameters.size(); ++k)
-        if (effect.parameters[k].role == "size" && parameters[k] != effect.parameters[k].vanishing)
-            vanishes = false;
-    if (vanishes) return;
     if (memories_ + effect.memories.size() > most_memories)
         throw InputError(effect.name + ": state: with those of the other effects there are more than " +
                          std::to_string(most_memories) + " quantities that remember; allowed: no more");
-    terms_.push_back({&code, {parameters.begin(), parameters.end()}, memories_});
+    term.first_memory = memories_;
+    terms_.push_back(std::move(term));
     memories_ += effect.memories.size();
     acting_.set(static_cast<std::size_t>(code.port().port));
     for (std::size_t k = 0; k < most_variables; ++k)
@@ -103,6 +116,14 @@ double Formulas::value(Port port, std::span<const double> variables, const Formu
         if (!(std::abs(value) <= term.code->port().limit)) refuse_value(term, value, variables);
         sum += value;
     }
+    return sum;
+}
+
+double Formulas::any_value(Port port, std::span<const double> variables, const FormulaMemory& memory) const {
+    double sum = 0.0;
+    for (const FormulaTerm& term : terms_)
+        if (term.code->port().port == port)
+            sum += term.code->value(variables, memories_of(term, memory), term.parameters);
     return sum;
 }
 

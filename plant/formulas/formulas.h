@@ -12,15 +12,31 @@
 //             machine does that has stood for long, or at 0
 //     play    z moves as little as keeps it within half the width of x (a play operator). Starts at x
 //     delay   what x was, by straight lines between ticks. Before the start it was what it is there
+#include "core/input_error.h"
 #include "plant/formulas/formula_code.h"
 
 #include <array>
 #include <bitset>
 #include <cstddef>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace fidservo::plant {
+
+/// A formula that yields a value at run time that no machine has.
+class FormulaValueError : public InputError {
+  public:
+    /// @param what  one line for the user that names effect, value and what is allowed
+    FormulaValueError(std::string effect, const std::string& what)
+        : InputError(what), effect_(std::move(effect)) {}
+
+    const std::string& effect() const { return effect_; }
+
+  private:
+    std::string effect_;
+};
 
 struct FormulaTerm {
     const FormulaCode* code;
@@ -39,8 +55,8 @@ struct FormulaMemory {
 
 class Formulas {
   public:
-    /// Adds a formula. Nothing is added where all sizes vanish. Throws InputError where there are too many
-    /// memories.
+    /// Adds a formula; one that is there already gets new values in its place. It is absent where all sizes
+    /// vanish. Throws InputError where there are too many memories.
     /// @param parameters  those of the effect, in its order
     void add(const FormulaCode& code, std::span<const double> parameters);
 
@@ -49,9 +65,12 @@ class Formulas {
     bool remember() const { return memories_ > 0; }
     bool use(std::size_t variable) const { return used_.test(variable); }
 
-    /// The sum of the formulas at a port. Throws InputError where a formula yields NaN or infinity, or more
-    /// than any machine has (PortDescription::limit).
+    /// The sum of the formulas at a port. Throws FormulaValueError where a formula yields NaN or infinity, or
+    /// more than any machine has (PortDescription::limit).
     double value(Port port, std::span<const double> variables, const FormulaMemory& memory) const;
+
+    /// The same without a limit, for states that a computation only tries.
+    double any_value(Port port, std::span<const double> variables, const FormulaMemory& memory) const;
 
     /// The memories' state after the variables have had the given values for a long time.
     FormulaMemory start(std::span<const double> variables, double tick_s) const;
@@ -60,6 +79,7 @@ class Formulas {
     void begin_tick(FormulaMemory& memory, std::span<const double> variables, double tick_s) const;
 
   private:
+    void take_in(FormulaTerm term);
     static void begin_tick(const FormulaTerm& term, FormulaMemory& memory, std::span<const double> variables,
                            double tick_s, std::size_t& ring);
 
