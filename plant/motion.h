@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The carriage's motion between events, and the events that end it: what plant/mechanism.h moves it by.
+//
+// Where a formula's force changes with the speed so fast that explicit steps would be far too short, or
+// pushes the motion back to an edge of the dead zone from either side, the rest of a tick is moved by
+// implicit steps (plant/implicit_step.h), to which that edge is no event.
 #include "core/dead_zone.h"
 #include "plant/dormand_prince.h"
 #include "plant/event_step.h"
@@ -187,7 +191,8 @@ class Motion {
             constexpr int explicit_steps_for_one = 8;  // as many evaluations of forces
             steps_.integrated += explicit_steps_for_one;
             const auto state_at = [this](const State& c, double g, double v) { return at_speed(c, g, v); };
-            static_cast<RungeKuttaStep<size>&>(step) = implicit_step<size>(state_at, rate_at, speed, x_, h);
+            static_cast<RungeKuttaStep<size>&>(step) =
+                implicit_step<size>(state_at, rate_at, speed, x_, first, h);
         } else {
             ++steps_.integrated;
             static_cast<RungeKuttaStep<size>&>(step) = dormand_prince_step(rate_at, x_, first, h);

@@ -13,22 +13,24 @@
 namespace fidservo::gap {
 namespace {
 
-/// Of the carriage at each detection of the tags' windows, in their order.
-std::vector<double> positions_mm(const Evidence& evidence) {
+/// At each detection of the tags' windows, in their order.
+std::vector<double> positions_mm(const Evidence& evidence, WaveOf wave) {
     std::vector<double> positions;
     for (const Window& window : evidence.windows()) {
         if (window.signal != Signal::tag) continue;
-        for (std::size_t i = 0; window.begin + corner_values * i < window.end; ++i)
-            positions.push_back(sight_of(evidence, window.run, window.first_detection + i).position_mm);
+        for (std::size_t i = 0; window.begin + corner_values * i < window.end; ++i) {
+            const TagSight sight = sight_of(evidence, window.run, window.first_detection + i);
+            positions.push_back(sight.position_mm + (wave == WaveOf::camera ? sight.contraction_mm : 0.0));
+        }
     }
     return positions;
 }
 
 }  // namespace
 
-double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors) {
+double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors, WaveOf wave) {
     constexpr double shortest_mm = 1.0, longest_mm = 50.0;
-    const std::vector<double> places = positions_mm(evidence);
+    const std::vector<double> places = positions_mm(evidence, wave);
     if (places.empty()) return 0.0;
     const auto [low, high] = std::ranges::minmax(places);
     const double step_per_mm = 0.25 / std::max(longest_mm, high - low);

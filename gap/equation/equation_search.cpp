@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "gap/balance/period_search.h"
+#include "gap/balance/tag_period.h"
 #include "gap/candidates/coupling.h"
 #include "gap/equation/scan.h"
 #include "gap/equation/screening.h"
@@ -64,6 +65,10 @@ class EquationSearch {
         if (stage_of(block_) == Stage::macro)
             for (const PositionPeriod& period : strongest_periods(evidence_, errors))
                 if (periods_mm_.size() < most_periods) periods_mm_.push_back(period.period_mm);
+        if (stage_of(block_) == Stage::camera)
+            if (const double period_mm = strongest_tag_period_mm(evidence_, errors, WaveOf::camera);
+                period_mm > 0.0)
+                periods_mm_.push_back(period_mm);
         std::optional<FittedSketch> best;
         try {
             const auto try_all = [&](const std::vector<Sketch>& sketches) {

@@ -91,6 +91,12 @@ EffectSetting parse(std::string_view text, std::string_view where, std::span<con
         given[k] = true;
         setting.values[k] = value_of(effect->parameters[k], digits, where);
     }
+    if (effect->formula == nullptr) return setting;
+    try {
+        demand_extents(*effect->formula, setting.values);
+    } catch (const InputError& error) {
+        fail(where, error.what());
+    }
     return setting;
 }
 

@@ -8,13 +8,17 @@
 #include <atomic>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <numbers>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <muParser.h>
@@ -96,6 +100,22 @@ std::size_t forbidden_at(const std::string& text) {
     return std::string::npos;
 }
 
+/// Where a character begins that no formula has, a control character or one beyond ASCII, and its bytes;
+/// npos: nowhere.
+std::pair<std::size_t, std::string> foreign_at(const std::string& text) {
+    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+    constexpr std::string_view blanks = "\t\n\r";
+    constexpr unsigned char beyond_ascii = 0x80, goes_on = 0x40;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        if (byte(k) < ' ' && blanks.find(text[k]) == std::string_view::npos) return {k, {}};
+        if (byte(k) < beyond_ascii) continue;
+        std::size_t end = k + 1;
+        while (end < text.size() && byte(end) >= beyond_ascii && (byte(end) & goes_on) == 0) ++end;
+        return {k, text.substr(k, end - k)};
+    }
+    return {std::string::npos, {}};
+}
+
 std::string listed(const std::vector<std::string>& names) {
     std::string list;
     for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
@@ -118,6 +138,11 @@ std::string key_of(const FormulaEffect::Memory& memory) {
             return "delay." + memory.name;
     }
     return memory.name;
+}
+
+/// Of the width of a play, or the time of a delay.
+std::string extent_key_of(const FormulaEffect::Memory& memory) {
+    return key_of(memory) + (memory.kind == FormulaEffect::Memory::Kind::play ? ".width" : ".by");
 }
 
 /// muParser's message without its stop and without the place, which it counts from 0.
@@ -148,6 +173,10 @@ std::set<std::string> names_in(const std::string& where, const std::string& text
     if (text.size() > longest)
         refuse(where + ": has " + std::to_string(text.size()) +
                " characters; allowed: " + std::to_string(longest) + " at most");
+    if (const auto [at, bytes] = foreign_at(text); at != std::string::npos)
+        refuse_at(at + 1, (bytes.empty() ? "a control character" : '"' + bytes + '"') +
+                              " has no meaning here; allowed: numbers, " + listed(allowed) +
+                              ", + - * / ^, comparisons, c ? a : b, " + functions);
     if (const std::size_t at = forbidden_at(text); at != std::string::npos)
         refuse_at(at + 1,
                   "neither assignments nor strings; allowed: a value, e.g. 0.1 * speed, with == to compare");
@@ -277,8 +306,7 @@ FormulaCode::FormulaCode(const FormulaEffect& effect) : effect_(effect), port_(f
     for (const FormulaEffect::Memory& memory : effect_.memories) {
         note(key_of(memory), memory.of, allowed);
         if (memory.kind != FormulaEffect::Memory::Kind::state)
-            note(key_of(memory) + (memory.kind == FormulaEffect::Memory::Kind::play ? ".width" : ".by"),
-                 memory.by, parameters);
+            note(extent_key_of(memory), memory.by, parameters);
     }
     id_ = count++;
 }
@@ -332,10 +360,21 @@ double FormulaCode::extent(std::size_t memory, std::span<const double> parameter
     Machine& here = machine();
     here.set({}, {}, parameters);
     const double extent = here.extent(memory);
-    if (!(extent >= 0.0 && std::isfinite(extent)))
-        refuse(effect_.name + ": " + key_of(effect_.memories[memory]) + ": its width or delay is " +
-               std::to_string(extent) + "; allowed: not below 0");
-    return extent;
+    const FormulaEffect::Memory& kept = effect_.memories[memory];
+    const bool is_delay = kept.kind == FormulaEffect::Memory::Kind::delay;
+    if (extent >= 0.0 && extent <= (is_delay ? longest_delay_s : std::numeric_limits<double>::max()))
+        return extent;
+    std::ostringstream what;
+    what << effect_.name << ": " << extent_key_of(kept) << ": comes to ";
+    if (std::isnan(extent))
+        what << "no number";
+    else
+        what << extent << (is_delay ? " s" : "");
+    if (is_delay)
+        what << "; allowed: 0 .. " << longest_delay_s << " s";
+    else
+        what << "; allowed: a number not below 0";
+    refuse(what.str());
 }
 
 }  // namespace fidservo::plant

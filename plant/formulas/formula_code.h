@@ -19,6 +19,7 @@ namespace fidservo::plant {
 
 inline constexpr std::size_t most_memories = 8;  ///< at one site
 inline constexpr std::size_t most_formula_parameters = 16;
+inline constexpr double longest_delay_s = 10.0;
 
 class FormulaCode {
   public:
@@ -43,7 +44,9 @@ class FormulaCode {
     /// or a delay.
     double followed(std::size_t memory, std::span<const double> variables, std::span<const double> memories,
                     std::span<const double> parameters) const;
-    /// The width of a play, in the unit of its input, or the time of a delay in s. Not below 0.
+    /// The width of a play, in the unit of its input, or the time of a delay in s. Throws InputError "NAME:
+    /// KEY: what is wrong; what is allowed" where it is below 0 or no number, or a delay longer than
+    /// longest_delay_s.
     double extent(std::size_t memory, std::span<const double> parameters) const;
 
   private:

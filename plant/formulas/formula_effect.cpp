@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plant/formulas/formula_effect.h"
 
+#include "core/demand.h"
 #include "core/input_error.h"
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_code.h"
 
@@ -13,6 +15,7 @@
 #include <mutex>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fidservo::plant {
@@ -46,10 +49,31 @@ std::vector<double> spread(const FormulaEffect::Parameter& parameter) {
 /// An optional parameter counts as its vanishing value within this share of its range.
 constexpr double negligible_share = 1e-3;
 
+/// A parameter as a size of the change from a stated value.
+EffectParameter change_from(double stated, const FormulaEffect::Parameter& text, EffectParameter parameter) {
+    constexpr double share_of_value = 0.2, share_of_range = 0.05;
+    const double none = text.role == "size" ? text.vanishing : 0.0;
+    const double step =
+        stated == none ? share_of_range * (text.high - text.low) : share_of_value * std::abs(stated - none);
+    parameter.vanishing = stated;
+    parameter.typical = stated + step <= text.high ? stated + step : std::max(text.low, stated - step);
+    parameter.role = Role::size;
+    parameter.starts = {};
+    parameter.negligible = 0.0;
+    return parameter;
+}
+
 class FormulaOfName {
   public:
     explicit FormulaOfName(const FormulaEffect& text) : text_(text) {
         if (text_.name.empty()) refuse("name", "is empty; allowed: a name");
+        constexpr std::string_view separators = ":=,";
+        if (std::ranges::any_of(text_.name, [&](char c) {
+                return separators.find(c) != std::string_view::npos || (c >= 0 && c < ' ');
+            }))
+            refuse("name",
+                   "has a character that separates names on the command line; allowed: a name on one "
+                   "line without : = ,");
         if (find_effect(text_.name) != nullptr)
             refuse("name", "is that of a listed effect; allowed: another one");
         const FormulaCode& code = FormulaCode::of(text_);
@@ -67,7 +91,17 @@ class FormulaOfName {
         effect_.source = text_.source;
         effect_.parameters = parameters_;
         effect_.needs_place = code.port().site != Site::micro && uses_place(code);
+        effect_.again = Again::replaces;
         effect_.formula = &code;
+        std::vector<double> typical;
+        for (const FormulaEffect::Parameter& parameter : text_.parameters)
+            typical.push_back(parameter.typical);
+        demand_extents(code, typical);
+    }
+    /// @param stated  the values that a rig file states
+    FormulaOfName(const FormulaEffect& text, std::span<const double> stated) : FormulaOfName(text) {
+        for (std::size_t k = 0; k < parameters_.size(); ++k)
+            parameters_[k] = change_from(stated[k], text_.parameters[k], parameters_[k]);
     }
     FormulaOfName(const FormulaOfName&) = delete;  // the effect points at what is here
     FormulaOfName& operator=(const FormulaOfName&) = delete;
@@ -147,6 +181,25 @@ const Effect& effect_of(const FormulaEffect& text) {
     const std::lock_guard lock(guard);
     std::unique_ptr<const FormulaOfName>& known = all[&code];
     if (!known) known = std::make_unique<const FormulaOfName>(code.effect());
+    return known->effect();
+}
+
+void demand_extents(const FormulaCode& code, std::span<const double> values) {
+    const std::vector<FormulaEffect::Memory>& memories = code.effect().memories;
+    for (std::size_t k = 0; k < memories.size(); ++k)
+        if (memories[k].kind != FormulaEffect::Memory::Kind::state) (void)code.extent(k, values);
+}
+
+const Effect& refit_of(const StatedEffect& stated) {
+    FIDSERVO_DEMAND(stated.formula.has_value());
+    static std::mutex guard;
+    static std::map<std::pair<const FormulaCode*, std::vector<double>>, std::unique_ptr<const FormulaOfName>>
+        all;
+    const FormulaCode& code = FormulaCode::of(*stated.formula);
+    const std::vector<double> values = setting_of(stated).values;
+    const std::lock_guard lock(guard);
+    std::unique_ptr<const FormulaOfName>& known = all[{&code, values}];
+    if (!known) known = std::make_unique<const FormulaOfName>(code.effect(), values);
     return known->effect();
 }
 

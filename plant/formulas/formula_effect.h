@@ -6,6 +6,10 @@
 
 #include <span>
 
+namespace fidservo {
+struct StatedEffect;
+}
+
 namespace fidservo::plant {
 
 /// The effect of a formula's text: for the same text the same effect, which lives until the program ends. May
@@ -14,7 +18,18 @@ namespace fidservo::plant {
 /// effect of the catalogue.
 const Effect& effect_of(const FormulaEffect& text);
 
-/// Puts a formula into a plant's parameters.
+/// A formula that a rig file states, as an effect whose parameters take the place of the stated ones: it is
+/// absent where they are the stated ones, and each of them is a size of the change, by a fifth of its own
+/// size where that is typical. Otherwise like effect_of().
+/// @param stated  has a formula
+const Effect& refit_of(const StatedEffect& stated);
+
+/// Throws InputError "NAME: KEY: what it is; what is allowed" where with some values of its parameters a play
+/// is narrower than 0, or a delay is none of 0 .. longest_delay_s.
+void demand_extents(const FormulaCode& code, std::span<const double> values);
+
+/// Puts a formula into a plant's parameters. Where the plant has it already, with the values of before, these
+/// are replaced.
 void add_formula(const FormulaCode& code, PlantParameters& plant, std::span<const double> values);
 
 }  // namespace fidservo::plant

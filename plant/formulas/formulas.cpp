@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 namespace fidservo::plant {
 
@@ -16,14 +17,21 @@ std::span<const double> memories_of(const FormulaTerm& term, const FormulaMemory
     return std::span(memory.values).subspan(term.first_memory, term.code->effect().memories.size());
 }
 
-[[noreturn]] void refuse_value(const FormulaTerm& term, double value, std::span<const double> variables) {
+/// @param state  of which it is the value; nullptr: of the formula
+[[noreturn]] void refuse_value(const FormulaTerm& term, double value, std::span<const double> variables,
+                               const FormulaEffect::Memory* state = nullptr) {
     const PortDescription& port = term.code->port();
+    const std::string_view unit = state != nullptr ? std::string_view{} : port.unit;
     std::ostringstream text;
-    text << term.code->effect().name << ": its formula gives ";
+    text << term.code->effect().name << ": ";
+    if (state != nullptr)
+        text << "state." << state->name << ": comes to ";
+    else
+        text << "its formula gives ";
     if (std::isnan(value))
         text << "no number";
     else
-        text << value << ' ' << port.unit;
+        text << value << (unit.empty() ? "" : " ") << unit;
     const auto known = variables_of(port.site);
     const char* separator = " at ";
     for (const std::size_t k : port.variables) {
@@ -31,7 +39,10 @@ std::span<const double> memories_of(const FormulaTerm& term, const FormulaMemory
         text << separator << known[k].name << " = " << variables[k];
         separator = ", ";
     }
-    text << "; allowed: numbers up to " << port.limit << ' ' << port.unit;
+    if (state != nullptr)
+        text << "; allowed: any finite number";
+    else
+        text << "; allowed: numbers up to " << port.limit << (unit.empty() ? "" : " ") << unit;
     throw FormulaValueError(term.code->effect().name, text.str());
 }
 
@@ -185,7 +196,7 @@ void Formulas::begin_tick(const FormulaTerm& term, FormulaMemory& memory, std::s
         double& next = memory.next[term.first_memory + k];
         next = memory.values[term.first_memory + k] +
                tick_s * rate * (std::abs(way) < straight ? 1.0 : std::expm1(way) / way);
-        if (!std::isfinite(next)) refuse_value(term, next, variables);
+        if (!std::isfinite(next)) refuse_value(term, next, variables, &kept[k]);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "core/input_error.h"
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
+#include "plant/formulas/formulas.h"
 #include "src/cli/commands.h"
 #include "src/cli/session_options.h"
 #include "src/files/recording/utc_time.h"
@@ -14,6 +15,7 @@
 #include "src/simulation/filmed_recording.h"
 #include "src/simulation/planned_experiments.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,6 +45,14 @@ std::string utc_time_of(const std::string& text) {
     throw InputError(fmt::format("--recorded-at: {}: must be a time in UTC like 2026-11-02T08:15:00Z", text));
 }
 
+/// A formula's value that no machine has, with the file that the formula is from.
+[[noreturn]] void refuse_formula_value(const SimulateOptions& options, const Rig& rig,
+                                       const plant::FormulaValueError& error) {
+    const bool is_of_rig = std::ranges::count(rig.effects, error.effect(), &StatedEffect::name) > 0;
+    throw InputError(
+        fmt::format("{}: {}", (is_of_rig ? options.rig_file : options.effects_file).string(), error.what()));
+}
+
 int run_simulate(const SimulateOptions& options) {
     const Rig rig = load_rig(options.rig_file);
     if (options.frames && (!rig.camera || !rig.fiducials))
@@ -58,13 +68,21 @@ int run_simulate(const SimulateOptions& options) {
 
     if (is_campaign) make_output_folder(options.out);
     Progress progress("recordings", plan.size());
-    for (const auto& [name, experiment] : plan) {
-        const std::filesystem::path folder = is_campaign ? options.out / name : options.out;
+    const auto record = [&](const PlannedExperiment& planned) {
+        const std::filesystem::path folder = is_campaign ? options.out / planned.name : options.out;
         if (options.frames)
-            write_filmed_recording(folder, rig, effects, experiment, name, options.seed, options.origin);
+            write_filmed_recording(folder, rig, effects, planned.experiment, planned.name, options.seed,
+                                   options.origin);
         else
-            write_recording(folder, simulate(rig, effects, experiment, name, options.seed), rig.camera,
-                            options.origin);
+            write_recording(folder, simulate(rig, effects, planned.experiment, planned.name, options.seed),
+                            rig.camera, options.origin);
+    };
+    for (const PlannedExperiment& planned : plan) {
+        try {
+            record(planned);
+        } catch (const plant::FormulaValueError& error) {
+            refuse_formula_value(options, rig, error);
+        }
         progress.advance();
     }
     progress.finish();

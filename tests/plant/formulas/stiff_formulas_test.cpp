@@ -132,6 +132,21 @@ TEST(StiffFormulas, ViscousForceBehindTheDeadZone_MovesAlongItsEdge) {
         }
 }
 
+/// The edge moves with the command, and the carriage comes to it and leaves it in the middle of ticks.
+TEST(StiffFormulas, CommandThatSwings_IsFollowedAlongTheEdge) {
+    for (const double c : {5.0, 50.0}) {
+        const MacroAxis axis = axis_of(true, formula_at("macro.force", "-c * speed", {{"c", c}}));
+        MacroAxisState state = start(axis, 0.0);
+        for (int tick = 0; tick < 4000; ++tick) {
+            const double command_V = 4.5 * std::sin(0.002 * tick), beyond_V = std::abs(command_V) - 3.0;
+            (void)advance(axis, state, command_V);
+            if (beyond_V > 0.3) {
+                ASSERT_NEAR(state.velocity_mm_per_s, std::copysign(beyond_V / c, command_V), 1e-6) << tick;
+            }
+        }
+    }
+}
+
 /// Where less than the jump sustains the speed the carriage leaves the edge: it goes slower and slower.
 TEST(StiffFormulas, DeadZoneThatNoLongerDrives_LetsTheCarriageCoast) {
     const MacroAxis axis = axis_of(true, formula_at("macro.force", "-c * speed", {{"c", 0.01}}));
@@ -204,6 +219,10 @@ TEST(StiffFormulas, JumpAtASpeed_KeepsThatSpeed) {
     const double before_mm = state.position_mm;
     for (int tick = 0; tick < 100; ++tick) (void)advance(axis, state, -0.5);
     EXPECT_NEAR(state.position_mm - before_mm, 1.0, 1e-6);
+    for (int tick = 0; tick < 2000; ++tick) {
+        (void)advance(axis, state, 1.5 * std::sin(0.01 * tick));
+        ASSERT_NEAR(state.velocity_mm_per_s, 10.0, 1e-5) << tick;
+    }
 }
 
 TEST(StiffFormulas, ForcesAgainstTheMotion_GiveNoEnergy) {
