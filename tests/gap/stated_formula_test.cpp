@@ -48,10 +48,10 @@ Evidence evidence_of(const StatedEffect& by_file, const StatedEffect& truth) {
 const std::vector<std::string> friction{"own_drag", "viscous_friction", "coulomb_friction", "drive_gain",
                                         "payload"};
 
-TEST(StatedFormula, OtherSizeAndShape_AreFoundByItsName) {
+TEST(SlowStatedFormula, OtherSizeAndShape_AreFoundByItsName) {
     const StatedEffect by_file = stated_drag(0.2, 60.0);
-    const Diagnosis diagnosis =
-        diagnose(evidence_of(by_file, stated_drag(0.35, 110.0)), {.only = friction, .selection = {}});
+    const Diagnosis diagnosis = diagnose(evidence_of(by_file, stated_drag(0.35, 110.0)),
+                                         {.only = friction, .without = {}, .selection = {}});
     ASSERT_EQ(diagnosis.effects.size(), 1u);
     const FoundEffect& found = diagnosis.effects.front();
     EXPECT_EQ(found.effect, "own_drag");
@@ -65,9 +65,10 @@ TEST(StatedFormula, OtherSizeAndShape_AreFoundByItsName) {
                             "width = 60"));
 }
 
-TEST(StatedFormula, ValuesThatAreRight_AreNoGap) {
+TEST(SlowStatedFormula, ValuesThatAreRight_AreNoGap) {
     const StatedEffect by_file = stated_drag(0.2, 60.0);
-    const Diagnosis diagnosis = diagnose(evidence_of(by_file, by_file), {.only = friction, .selection = {}});
+    const Diagnosis diagnosis =
+        diagnose(evidence_of(by_file, by_file), {.only = friction, .without = {}, .selection = {}});
     EXPECT_EQ(diagnosis.verdict, Verdict::no_gap);
 }
 
