@@ -37,7 +37,7 @@ using plant::Port;
 /// too, and the others. None where no port belongs to the block. Where the tags say that the encoder is
 /// wrong, the others are those that displace tags as it does; the encoder's own signal tells them from it.
 std::array<std::vector<Port>, 3> ports_for(std::string_view block, std::optional<Signal> signal) {
-    if (block == "macro.encoder" && signal == Signal::tag)
+    if (block == plant::describe(Port::encoder).blocks.front() && signal == Signal::tag)
         return {{{Port::encoder}, {}, {Port::camera_x, Port::tag_x}}};
     std::array<std::vector<Port>, 3> parts;
     for (const plant::PortDescription& port : plant::ports()) {
