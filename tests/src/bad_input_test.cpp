@@ -103,6 +103,24 @@ TEST(Program, WrongRigFile_ExitsWithTwoAndMakesNothing) {
     EXPECT_FALSE(std::filesystem::exists(folder / "o"));
 }
 
+TEST(Program, FormulaThatGivesNoNumber_IsNamedWithFileAndValue) {
+    const TemporaryFolder folder;
+    const std::string formula =
+        "  - name: own\n"
+        "    block: macro.friction\n"
+        "    acts_on: macro.friction\n"
+        "    formula: size * sqrt(place - 1000)\n"
+        "    parameters:\n"
+        "      size: {bounds: [0, 1], typical: 0.1}\n";
+    folder.write("effects.yaml", "format: fidservo-effects/1\neffects:\n" + formula);
+    const std::string rig = text_of(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
+    folder.write("rig.yaml", rig.substr(0, rig.find("micro:")) + "\neffects:\n" + formula);
+    expect_refusal({"simulate", "rest", "--effects-file", "effects.yaml", "--out", "o"}, folder.path(), 2,
+                   {"effects.yaml: own: its formula gives no number at place = ", "allowed: numbers up to"});
+    expect_refusal({"simulate", "rest", "--rig", "rig.yaml", "--out", "o"}, folder.path(), 2,
+                   {"rig.yaml: own: its formula gives no number at place = "});
+}
+
 TEST(Program, WrongEffect_ExitsWithTwo) {
     const TemporaryFolder folder;
     expect_refusal({"simulate", "rest", "--effect", "gravity", "--out", "o"}, folder.path(), 2, {"gravity"});
