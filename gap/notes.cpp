@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -30,11 +31,29 @@ void add_what_does_not_matter(const SignalLimits& matters, Diagnosis& diagnosis)
     }
 }
 
-/// What effects come to that the rig file states already: their values are what was found beside it.
+/// A formula that the rig file states: its values take the place of the stated ones.
+std::string replacement_note(const StatedEffect& stated, const plant::EffectSetting& found) {
+    std::string note =
+        fmt::format("{}: the rig file states it; these values take the place of", found.effect->name);
+    const char* separator = " ";
+    const std::vector<double> before = plant::setting_of(stated).values;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        note += fmt::format("{}{} = {:.6g}", separator, found.effect->parameters[k].name, before[k]);
+        separator = ", ";
+    }
+    return note;
+}
+
+/// What effects come to that the rig file states already: their values are what was found beside it, or
+/// instead of it.
 void add_what_is_stated_already(const Rig& rig, Diagnosis& diagnosis) {
     for (const plant::EffectSetting& found : diagnosis.hypothesis) {
         const auto stated = std::ranges::find(rig.effects, found.effect->name, &StatedEffect::name);
-        if (stated == rig.effects.end() || stated->formula) continue;
+        if (stated == rig.effects.end()) continue;
+        if (stated->formula) {
+            diagnosis.notes.push_back(replacement_note(*stated, found));
+            continue;
+        }
         std::string note = fmt::format("{}: the rig file states it already, these values come beside it",
                                        found.effect->name);
         try {

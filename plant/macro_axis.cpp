@@ -161,10 +161,11 @@ MacroAxis make_macro_axis(const MacroAxisParameters& parameters, double tick_s) 
     axis.has_standing_force = acts(parameters.standing) || axis.has_force_formula;
     axis.has_friction = acts(friction) || axis.has_friction_formula;
     axis.has_bristles = has_bristles(friction);
-    const bool force_turns =
-        axis.has_force_formula && (parameters.formulas.use(carriage_variable::speed) ||
-                                   parameters.formulas.use(carriage_variable::direction));
-    axis.turns_matter = axis.has_friction || parameters.play_mm > 0.0 || force_turns;
+    const bool speed_counts = parameters.formulas.use(carriage_variable::speed) ||
+                              parameters.formulas.use(carriage_variable::direction);
+    axis.force_turns = axis.has_force_formula && speed_counts;
+    axis.is_pushed_back = axis.force_turns || (axis.has_friction_formula && speed_counts);
+    axis.turns_matter = axis.has_friction || parameters.play_mm > 0.0 || axis.force_turns;
     axis.has_belt = parameters.belt.compliance_mm_per_V >= least_compliance_mm_per_V;
     if (axis.has_belt) axis.belt = belt_force(parameters.belt, gain, parameters.time_constant_s);
     axis.driven_low_mm = parameters.low_mm - 0.5 * parameters.play_mm;

@@ -83,13 +83,17 @@ struct MacroAxis {
     bool has_friction_formula = false;  ///< a formula adds to friction; has_friction is then true, too
     bool has_bristles = false;          ///< friction has bristles that bend
     bool turns_matter = false;          ///< a reversal is an event: forces change there, or play begins
-    bool has_belt = false;              ///< a belt separates drive and carriage
-    BeltForce belt{};                   ///< constants of the belt's force
-    double driven_low_mm = 0.0;         ///< travel of the driving part: wider by the play
-    double driven_high_mm = 0.0;        ///< upper end of the driving part's travel
-    double longest_step_s = 0.0;        ///< largest step of the numerical integration
-    WholeSteps whole_steps{};           ///< matrices of the exact step over a tick without an event
-    bool has_series = false;            ///< between events the motion can be computed as a power series
+    /// A formula's force by position differs by the direction of motion.
+    bool force_turns = false;
+    /// A formula's force depends on the speed, and may push the motion back so hard that steps are implicit.
+    bool is_pushed_back = false;
+    bool has_belt = false;        ///< a belt separates drive and carriage
+    BeltForce belt{};             ///< constants of the belt's force
+    double driven_low_mm = 0.0;   ///< travel of the driving part: wider by the play
+    double driven_high_mm = 0.0;  ///< upper end of the driving part's travel
+    double longest_step_s = 0.0;  ///< largest step of the numerical integration
+    WholeSteps whole_steps{};     ///< matrices of the exact step over a tick without an event
+    bool has_series = false;      ///< between events the motion can be computed as a power series
 };
 
 /// The axis of a rig, without effects. tau = -T / ln(pole).
@@ -117,6 +121,12 @@ std::array<double, carriage_variable::count> formula_variables(const CarriageFor
 inline double formula_V(const Formulas& formulas, const CarriageFormulaState& seen, Port port,
                         const CarriageSight& sight) {
     return formulas.value(port, formula_variables(seen, sight), seen.memory);
+}
+
+/// The same, whatever its value, which may be NaN: for states on trial.
+inline double any_formula_V(const Formulas& formulas, const CarriageFormulaState& seen, Port port,
+                            const CarriageSight& sight) {
+    return formulas.any_value(port, formula_variables(seen, sight), seen.memory);
 }
 
 /// The command limited to the drive's range, V.

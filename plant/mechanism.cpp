@@ -4,6 +4,7 @@
 #include "core/input_error.h"
 #include "plant/macro_axis.h"
 #include "plant/motion.h"
+#include "plant/motion_shortcuts.h"
 
 #include <algorithm>
 

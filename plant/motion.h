@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The carriage's motion between events, and the events that end it: what plant/mechanism.h moves it by.
+//
+// Where a formula's force changes with the speed so fast that explicit steps would be far too short, or
+// pushes the motion back to an edge of the dead zone from either side, the rest of a tick is moved by
+// implicit steps (plant/implicit_step.h), to which that edge is no event.
 #include "core/dead_zone.h"
 #include "plant/dormand_prince.h"
 #include "plant/event_step.h"
+#include "plant/implicit_step.h"
 #include "plant/macro_axis.h"
 #include "plant/motion_error.h"
 #include "plant/motion_series.h"
@@ -45,18 +50,21 @@ class Motion {
     /// Begins a stretch of motion without events. Returns whether anything moves in it.
     bool begin() {
         if (axis_.has_standing_force) standing_.go_to(x_[place]);
-        direction_ = x_[speed] < 0.0 ? -1.0 : 1.0;
-        const double w_V = drive_V_ + (axis_.has_standing_force ? standing_V(x_) : 0.0);
-        branch_ = dead_zone_branch(p_.dead_zone, w_V);
-        voltage_V_ = dead_zone_V(p_.dead_zone, branch_, w_V, p_.dead_zone_on_motion);
+        const DeadZoneBranch before = branch_;
+        look(x_[speed] < 0.0 ? -1.0 : 1.0);
+        if (axis_.is_pushed_back && stretches_++ > 0 && branch_ != before && ++crossings_ > 1)
+            is_implicit_ = true;
         if (std::abs(x_[speed]) <= rest_mm_per_s || runs_into_end()) x_[speed] = 0.0;
         held_ = false;
         direction_ = x_[speed] < 0.0 ? -1.0 : 1.0;
         if (x_[speed] != 0.0) return true;
-        find_hold_range();
+        hold_high_ = hold_limit(1.0);
         const double pull = pull_mm_per_s(x_);
-        held_ = pull >= hold_low_ && pull <= hold_high_;
-        direction_ = pull < hold_low_ ? -1.0 : 1.0;
+        if (axis_.force_turns && pull <= hold_high_) look(-1.0);
+        hold_low_ = hold_limit(-1.0);
+        const double pull_left = axis_.force_turns ? pull_mm_per_s(x_) : pull;
+        held_ = pull_left >= hold_low_ && pull <= hold_high_;
+        direction_ = pull_left < hold_low_ ? -1.0 : 1.0;
         return !held_ || !motor_rests();
     }
 
@@ -84,10 +92,15 @@ class Motion {
             return longest_s;
         }
         while (!(error <= 1.0) && step.duration_s > shortest_step_s) {
-            step = step_from(
-                first, step.duration_s * (std::isfinite(error) ? std::min(fitting_share(error), 0.9) : 0.1));
+            const double shorter_s =
+                step.duration_s * (std::isfinite(error) ? std::min(fitting_share(error), 0.9) : 0.1);
+            const bool becomes_implicit =
+                axis_.is_pushed_back && !is_implicit_ && shorter_s < least_explicit_share * longest_s;
+            is_implicit_ = is_implicit_ || becomes_implicit;
+            step = step_from(first, becomes_implicit ? longest_s : shorter_s);
             error = plant::error_of<size>(step);
         }
+        if (std::isnan(error)) demand_values_within(first, step.duration_s);
         trial_s_ = step.duration_s * (error <= 1.0 ? std::max(fitting_share(error), 0.5) : 5.0);
         if (slack(step.end) < 0.0)
             step = step_to_event(
@@ -97,28 +110,14 @@ class Motion {
         return step.duration_s;
     }
 
-    static WholeSteps whole_steps(const MacroAxis& axis) {
-        WholeSteps steps{axis.longest_step_s, {}};
-        for (const DeadZoneBranch branch :
-             {DeadZoneBranch::left, DeadZoneBranch::inside, DeadZoneBranch::right})
-            for (const double direction : {-1.0, 1.0})
-                for (const bool held : {false, true}) {
-                    const CarriageFormulaState unseen;  // there are no formulas here
-                    Motion motion(axis, 0.0, State{}, direction, unseen);
-                    motion.branch_ = branch;
-                    motion.direction_ = direction;
-                    motion.held_ = held;
-                    motion.start_dry_V_ = axis.parameters.friction.coulomb_V;
-                    const auto step = affine_step(motion.rates(), steps.duration_s);
-                    for (std::size_t i = 0; i < size; ++i)
-                        std::ranges::copy(step[i], steps.of_way[motion.way()][i].begin());
-                }
-        return steps;
-    }
+    /// The matrices of whole steps for all modes, where forces are linear.
+    static WholeSteps whole_steps(const MacroAxis& axis);
 
   private:
     /// Slower than this, under a pull that would sustain no more than this, counts as at rest.
     static constexpr double rest_mm_per_s = 1e-9;
+    /// Explicit steps of less than this share of a stretch take longer than implicit ones.
+    static constexpr double least_explicit_share = 0.02;
 
     struct Step : RungeKuttaStep<size> {
         double duration_s;
@@ -164,93 +163,16 @@ class Motion {
                 slides(friction, std::max(0.0, direction_ * x[speed])));
     }
 
+    // Defined in plant/motion_shortcuts.h.
     /// Moves on by a duration where creeping friction makes the equations stiff.
-    bool creeps_evenly(double duration_s) {
-        if (has_belt || p_.friction.creep_mm_per_s == 0.0 || axis_.has_bristles || axis_.has_friction_formula)
-            return false;
-        const double tau_s = p_.time_constant_s, gain = p_.velocity_gain_mm_per_s_per_V;
-        const auto creep = balanced_creep(p_.friction, x_[speed], x_[place], coasts(), effective_V(x_));
-        constexpr double time_constants = 8.0;
-        if (!creep || duration_s * creep->slope_V_s_per_mm * gain < time_constants * tau_s) return false;
-        State end = x_;
-        end[place] += duration_s * creep->velocity_mm_per_s;
-        end[speed] = creep->velocity_mm_per_s;
-        direction_ = end[speed] < 0.0 ? -1.0 : 1.0;
-        settle(end);
-        return true;
-    }
-
+    bool creeps_evenly(double duration_s);
     /// Empty where the motion is no power series, or dry friction changes. Only without a belt.
-    std::optional<double> advance_in_series(double longest_s) {
-        if (!axis_.has_series || !is_straight(x_)) return std::nullopt;
-        const MotionSeries series = series_of(longest_s);
-        const auto reach = [&](double duration_s) {
-            return Reached{series.at(duration_s / longest_s), duration_s};
-        };
-        const auto slack_of = [&](const Reached& there) { return slack(there.end); };
-        ++steps_.in_series;
-        Reached there =
-            reach(longest_s * series.trusted_share(step_place_tolerance_mm, step_speed_tolerance_mm_per_s));
-        if (slack_of(there) < 0.0) there = step_to_event(slack(x_), there, reach, slack_of);
-        if (!is_straight(there.end)) return std::nullopt;
-        settle(there.end);
-        return there.duration_s;
-    }
-
+    std::optional<double> advance_in_series(double longest_s);
+    MotionSeries series_of(double duration_s) const;
     /// Empty unless elastic bristles are bending. Only without a belt.
-    std::optional<double> advance_on_springs(double longest_s) {
-        const Friction& friction = p_.friction;
-        if (!axis_.has_bristles || !friction.bristles_are_springs || !dry_is_coulomb_ ||
-            axis_.has_standing_force || axis_.has_friction_formula || held_ || bend_ == direction_)
-            return std::nullopt;
-        start_dry_V_ = friction.coulomb_V;
-        const double to_sliding_mm = friction.bristle_mm * (1.0 - direction_ * bend_);
-        const SpringMotion motion =
-            bristle_motion(friction, p_.time_constant_s, p_.velocity_gain_mm_per_s_per_V, direction_,
-                           voltage_V_, bend_, x_[speed]);
-        const auto reach = [&](double duration_s) {
-            const auto [way_mm, mm_per_s] = motion.after(duration_s);
-            return Reached{{x_[place] + way_mm, mm_per_s}, duration_s};
-        };
-        const auto slack_of = [&](const Reached& there) {
-            return std::min(slack(there.end), to_sliding_mm - direction_ * (there.end[place] - x_[place]));
-        };
-        const bool is_free = swings_freely(motion);
-        Reached there = reach(is_free ? longest_s : std::min(longest_s, motion.until_second_turn_s()));
-        if (is_free)
-            direction_ = there.end[speed] < 0.0 ? -1.0 : 1.0;
-        else if (slack_of(there) < 0.0)
-            there = step_to_event(std::min(slack(x_), to_sliding_mm), there, reach, slack_of);
-        settle(there.end);
-        return there.duration_s;
-    }
-
+    std::optional<double> advance_on_springs(double longest_s);
     /// Whether no force changes at its reversals, of which stiff springs may cause many in a tick.
-    bool swings_freely(const SpringMotion& motion) const {
-        const Friction& friction = p_.friction;
-        const double unbent_mm = x_[place] - friction.bristle_mm * bend_;
-        const auto [low_mm, high_mm] = motion.range_mm();
-        return p_.play_mm == 0.0 && friction.left_V_s_per_mm == friction.right_V_s_per_mm &&
-               x_[place] + low_mm > std::max(unbent_mm - friction.bristle_mm, axis_.driven_low_mm) &&
-               x_[place] + high_mm < std::min(unbent_mm + friction.bristle_mm, axis_.driven_high_mm);
-    }
-
-    MotionSeries series_of(double duration_s) const {
-        const double tau_s = p_.time_constant_s, gain = p_.velocity_gain_mm_per_s_per_V;
-        const double without_V = dead_zone_V(p_.dead_zone, branch_, drive_V_, p_.dead_zone_on_motion);
-        const double passed =
-            dead_zone_V(p_.dead_zone, branch_, drive_V_ + 1.0, p_.dead_zone_on_motion) - without_V;
-        const double viscous = direction_ > 0.0 ? p_.friction.right_V_s_per_mm : p_.friction.left_V_s_per_mm;
-        const double dry_V = axis_.has_friction ? direction_ * dry_V_at(x_) : 0.0;
-        const auto [sine, cosine] = standing_.sine_and_cosine(x_[place]);
-        return {{gain * (without_V - dry_V) / tau_s, gain * passed / tau_s, (1.0 + gain * viscous) / tau_s},
-                p_.standing,
-                sine,
-                cosine,
-                x_[place],
-                x_[speed],
-                duration_s};
-    }
+    bool swings_freely(const SpringMotion& motion) const;
 
     State whole_step(const State& first) const {
         const SquareMatrix<4>& step = axis_.whole_steps.of_way[way()];
@@ -260,9 +182,46 @@ class Motion {
         return end;
     }
 
+    /// A step on trial: its formulas may give any value.
     Step step_from(const State& first, double h) {
-        ++steps_.integrated;
-        return {dormand_prince_step([this](const State& x) { return rate(x); }, x_, first, h), h};
+        is_on_trial_ = true;
+        const auto rate_at = [this](const State& x) { return rate(x); };
+        Step step{{}, h};
+        if (is_implicit_ && !held_) {
+            constexpr int explicit_steps_for_one = 8;  // as many evaluations of forces
+            steps_.integrated += explicit_steps_for_one;
+            const auto state_at = [this](const State& c, double g, double v) { return at_speed(c, g, v); };
+            static_cast<RungeKuttaStep<size>&>(step) =
+                implicit_step<size>(state_at, rate_at, speed, x_, first, h);
+        } else {
+            ++steps_.integrated;
+            static_cast<RungeKuttaStep<size>&>(step) = dormand_prince_step(rate_at, x_, first, h);
+        }
+        is_on_trial_ = false;
+        return step;
+    }
+
+    /// Throws InputError where a formula has no value within its port's limits at the end of a short step.
+    void demand_values_within(const State& first, double duration_s) const {
+        State end = x_;
+        for (std::size_t i = 0; i < size; ++i) end[i] += duration_s * first[i];
+        (void)rate(end);
+    }
+
+    /// The state of speed v whose other components solve x = c + g rate(x).
+    State at_speed(const State& c, double g, double v) const {
+        State x = c;
+        x[speed] = v;
+        x[place] += g * v;
+        if constexpr (has_belt) {
+            const double per_s = g / (p_.belt.motor_share * p_.time_constant_s);
+            const double gain = p_.velocity_gain_mm_per_s_per_V;
+            const auto& [per_mm, per_mm_per_s] = axis_.belt;
+            x[motor] += per_s * (gain * effective_V(x) - per_mm * (c[stretch] - g * v) + per_mm_per_s * v);
+            x[motor] /= 1.0 + per_s * (1.0 + per_mm_per_s + per_mm * g);
+            x[stretch] += g * (x[motor] - v);
+        }
+        return x;
     }
 
     double standing_V(const State& x) const {
@@ -275,13 +234,28 @@ class Motion {
     double formula_V(Port port, const State& x, double direction, double voltage_V) const {
         double v = x[speed];
         if (axis_.turns_matter) v = direction * std::max(rest_mm_per_s, direction * v);
-        return plant::formula_V(p_.formulas, seen_, port, {x[place], v, direction, voltage_V});
+        const CarriageSight sight{x[place], v, direction, voltage_V};
+        return is_on_trial_ ? plant::any_formula_V(p_.formulas, seen_, port, sight)
+                            : plant::formula_V(p_.formulas, seen_, port, sight);
+    }
+
+    /// Looks at the forces on the carriage as it moves, or would move, in a direction.
+    void look(double direction) {
+        direction_ = direction;
+        const double w_V = drive_V_ + (axis_.has_standing_force ? standing_V(x_) : 0.0);
+        branch_ = dead_zone_branch(p_.dead_zone, w_V);
+        voltage_V_ = dead_zone_V(p_.dead_zone, branch_, w_V, p_.dead_zone_on_motion);
+    }
+
+    /// The branch of the dead zone that a voltage is on: until the next event, or at every instant.
+    DeadZoneBranch branch_of(double w_V) const {
+        return is_implicit_ ? dead_zone_branch(p_.dead_zone, w_V) : branch_;
     }
 
     double effective_V(const State& x) const {
-        return axis_.has_standing_force
-                   ? dead_zone_V(p_.dead_zone, branch_, drive_V_ + standing_V(x), p_.dead_zone_on_motion)
-                   : voltage_V_;
+        if (!axis_.has_standing_force) return voltage_V_;
+        const double w_V = drive_V_ + standing_V(x);
+        return dead_zone_V(p_.dead_zone, branch_of(w_V), w_V, p_.dead_zone_on_motion);
     }
 
     /// The force on the carriage without friction, as the velocity that it would sustain.
@@ -304,9 +278,14 @@ class Motion {
 
     /// A velocity against the direction, as in trial steps past a reversal, counts as 0.
     double dry_V_at(const State& x) const {
-        return dry_friction_V(p_.friction, std::max(0.0, direction_ * x[speed]), x[place], coasts());
+        return dry_friction_V(p_.friction, std::max(0.0, direction_ * x[speed]), x[place], coasts_at(x));
     }
     bool coasts() const { return branch_ == DeadZoneBranch::inside; }
+    bool coasts_at(const State& x) const {
+        return is_implicit_ && p_.friction.coasting_V != 0.0 && axis_.has_standing_force
+                   ? branch_of(drive_V_ + standing_V(x)) == DeadZoneBranch::inside
+                   : coasts();
+    }
 
     BristleBend bend_at(const State& x, double dry_V) const {
         if (bend_ == direction_ && dry_is_coulomb_) return {direction_, 0.0};
@@ -327,20 +306,18 @@ class Motion {
         }
     }
 
-    /// The range of pulls under which a carriage at rest stays; unbounded towards an end of travel.
-    void find_hold_range() {
+    /// The pull up to which a carriage at rest is not moved in a direction; unbounded towards an end of
+    /// travel.
+    double hold_limit(double direction) const {
         const double gain = p_.velocity_gain_mm_per_s_per_V;
+        if (direction < 0.0 ? x_[place] <= axis_.driven_low_mm : x_[place] >= axis_.driven_high_mm)
+            return direction * std::numeric_limits<double>::infinity();
         const double bent = axis_.has_bristles ? gain * p_.friction.coulomb_V * bend_ : 0.0;
         const double held = axis_.has_bristles ? 0.0 : gain * breakaway_V(p_.friction, x_[place], coasts());
-        hold_low_ = bent - held - rest_mm_per_s;
-        hold_high_ = bent + held + rest_mm_per_s;
-        if (axis_.has_friction_formula) {
-            const double driven_V = effective_V(x_);
-            hold_low_ += gain * formula_V(Port::friction, x_, -1.0, driven_V);
-            hold_high_ += gain * formula_V(Port::friction, x_, 1.0, driven_V);
-        }
-        if (x_[place] <= axis_.driven_low_mm) hold_low_ = -std::numeric_limits<double>::infinity();
-        if (x_[place] >= axis_.driven_high_mm) hold_high_ = std::numeric_limits<double>::infinity();
+        const double limit = bent + direction * held + direction * rest_mm_per_s;
+        return axis_.has_friction_formula
+                   ? limit + gain * formula_V(Port::friction, x_, direction, effective_V(x_))
+                   : limit;
     }
 
     bool motor_rests() {
@@ -359,7 +336,7 @@ class Motion {
         }
         double least = std::min(x[place] - axis_.driven_low_mm, axis_.driven_high_mm - x[place]);
         if (axis_.turns_matter) least = std::min(least, direction_ * x[speed]);
-        if (axis_.has_standing_force)
+        if (axis_.has_standing_force && !is_implicit_)
             least = std::min(least, dead_zone_slack_V(p_.dead_zone, branch_, drive_V_ + standing_V(x)));
         return least;
     }
@@ -391,6 +368,9 @@ class Motion {
     double bend_, start_dry_V_ = 0.0;                           ///< at x_, where there are bristles
     double trial_s_ = std::numeric_limits<double>::infinity();  ///< step size to try next
     StepCount steps_;
+    int stretches_ = 0, crossings_ = 0;  ///< begun so far; of them those on another branch of the dead zone
+    bool is_implicit_ = false;  ///< whether steps are implicit from now on, across edges of the dead zone
+    bool is_on_trial_ = false;  ///< whether the state at which formulas are evaluated is one on trial
     // Constant until the next event.
     DeadZoneBranch branch_ = DeadZoneBranch::inside;
     bool held_ = false;

@@ -13,55 +13,67 @@
 namespace fidservo::gap {
 namespace {
 
-/// Of the carriage at each detection of the tags' windows, in their order.
-std::vector<double> positions_mm(const Evidence& evidence) {
+/// At each detection of the tags' windows, in their order.
+std::vector<double> positions_mm(const Evidence& evidence, WaveOf wave) {
     std::vector<double> positions;
     for (const Window& window : evidence.windows()) {
         if (window.signal != Signal::tag) continue;
-        for (std::size_t i = 0; window.begin + corner_values * i < window.end; ++i)
-            positions.push_back(sight_of(evidence, window.run, window.first_detection + i).position_mm);
+        for (std::size_t i = 0; window.begin + corner_values * i < window.end; ++i) {
+            const TagSight sight = sight_of(evidence, window.run, window.first_detection + i);
+            positions.push_back(sight.position_mm + (wave == WaveOf::camera ? sight.contraction_mm : 0.0));
+        }
     }
     return positions;
 }
 
 }  // namespace
 
-double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors) {
+double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors, WaveOf wave) {
     constexpr double shortest_mm = 1.0, longest_mm = 50.0;
-    const std::vector<double> places = positions_mm(evidence);
+    const std::vector<double> places = positions_mm(evidence, wave);
     if (places.empty()) return 0.0;
     const auto [low, high] = std::ranges::minmax(places);
     const double step_per_mm = 0.25 / std::max(longest_mm, high - low);
-    double best_mm = 0.0, most = 0.0;
-    for (double per_mm = 1.0 / longest_mm; per_mm <= 1.0 / shortest_mm; per_mm += step_per_mm) {
-        Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() * 1e-9;
-        Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    const auto taken = [&](double per_mm) {
+        Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;  // of sine, cosine, a constant
+        Eigen::Vector3d right = Eigen::Vector3d::Zero();
         std::size_t at = 0;
         for (const Window& window : evidence.windows()) {
             if (window.signal != Signal::tag) continue;
-            Eigen::Matrix3d own = Eigen::Matrix3d::Zero();  // of sine, cosine, error, about their means
-            Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-            double count = 0.0;
+            Eigen::Matrix4d own = Eigen::Matrix4d::Zero();  // of sine, cosine, constant, error
             for (std::size_t k = window.begin; k < window.end; k += corner_values, ++at) {
                 if (std::isnan(errors[k])) continue;
                 const double phase = 2.0 * std::numbers::pi * per_mm * places[at];
-                const Eigen::Vector3d row(std::sin(phase), std::cos(phase), errors[k]);
+                const Eigen::Vector4d row(std::sin(phase), std::cos(phase), 1.0, errors[k]);
                 own += row * row.transpose();
-                sum += row;
-                count += 1.0;
             }
+            const double count = own(2, 2);
             if (count < 3.0) continue;
-            own -= sum * sum.transpose() / count;
-            const double weight = 1.0 / (count + own(2, 2));
-            normal += weight * own.topLeftCorner<2, 2>();
-            right += weight * own.topRightCorner<2, 1>();
+            const Eigen::Vector4d sum = own.col(2);
+            if (wave == WaveOf::carriage) own -= sum * sum.transpose() / count;
+            const double weight = 1.0 / (count + own(3, 3));
+            normal += weight * own.topLeftCorner<3, 3>();
+            right += weight * own.topRightCorner<3, 1>();
         }
-        const double taken = right.dot(normal.inverse() * right);
-        if (taken <= most) continue;
-        most = taken;
-        best_mm = 1.0 / per_mm;
+        return right.dot(normal.inverse() * right);
+    };
+    double best_per_mm = 0.0, most = 0.0;
+    const auto try_at = [&](double per_mm) {
+        const double here = taken(per_mm);
+        if (here <= most) return;
+        most = here;
+        best_per_mm = per_mm;
+    };
+    for (double per_mm = 1.0 / longest_mm; per_mm <= 1.0 / shortest_mm; per_mm += step_per_mm) try_at(per_mm);
+    if (best_per_mm == 0.0) return 0.0;
+    constexpr int halvings = 6;
+    double step = 0.5 * step_per_mm;
+    for (int k = 0; k < halvings; ++k, step *= 0.5) {
+        const double middle = best_per_mm;
+        try_at(middle - step);
+        try_at(middle + step);
     }
-    return best_mm;
+    return 1.0 / best_per_mm;
 }
 
 }  // namespace fidservo::gap

@@ -5,10 +5,18 @@
 
 namespace fidservo::gap {
 
-/// The period along the rail, mm, of that sinusoidal error of the encoder's reading that would explain most
-/// of the tags' errors along the stage's motion; 0 without tags. Linear periodogram over 1 mm to 50 mm (Lomb,
-/// Scargle), windows weighted as in gap/fit/score.h, with each window's mean free.
+/// Whose place a wave goes by.
+enum class WaveOf {
+    carriage,  ///< as of the encoder's reading
+    camera,    ///< of carriage and platform together
+};
+
+/// The period along the rail, mm, of the wave that would explain most of the tags' errors along the stage's
+/// motion; 0 where there are none. Linear periodogram over 1 mm to 50 mm (Lomb,
+/// Scargle), windows weighted as in gap/fit/score.h; of the carriage with each window's mean free, which its
+/// start decides.
 /// @param errors  of the tags are used where they are not NaN
-double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors);
+double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors,
+                               WaveOf wave = WaveOf::carriage);
 
 }  // namespace fidservo::gap

@@ -3,6 +3,7 @@
 
 #include "core/rig.h"
 #include "plant/effects/catalogue.h"
+#include "plant/formulas/formula_effect.h"
 
 #include <algorithm>
 #include <array>
@@ -187,6 +188,8 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
     const auto listed = plant::effect_catalogue();
     std::vector<const plant::Effect*> known(listed.begin(), listed.end());
     known.insert(known.end(), formulas.begin(), formulas.end());
+    for (const StatedEffect& stated : evidence.rig().effects)
+        if (stated.formula) known.push_back(&plant::refit_of(stated));
     for (const plant::Effect* effect : known) {
         if (plant::is_of_frames(effect->part) && !recorded[index_of(Signal::image)]) continue;
         if (plant::is_of_platform(effect->part) && !evidence.rig().micro) continue;

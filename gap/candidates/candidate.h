@@ -56,6 +56,7 @@ bool knows_places(const Evidence& evidence);
 /// effect of which another one is a richer form is kept as that one's limit (is_limit).
 /// @param only  names to keep; empty: all
 /// @param without  names to leave out, with all of their class
+/// A formula that the rig file states is tried as one whose parameters may have changed (plant::refit_of).
 /// @param formulas  effects besides those of the catalogue
 std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std::string> only,
                                   std::span<const std::string> without,

@@ -36,8 +36,8 @@ std::optional<double> removed_of_kinds_left_out(const Evidence& evidence, std::s
 std::optional<ProposedEquation> equation_of(const Evidence& evidence, const CrossFit& base,
                                             const Remainder& remainder, int number, double tail,
                                             const std::optional<Rival>& rival) {
-    std::optional<FittedSketch> trial =
-        search_equation(evidence, base, remainder.block, fmt::format("unnamed_{}", number), tail, rival);
+    std::optional<FittedSketch> trial = search_equation(evidence, base, remainder.block, remainder.signal,
+                                                        fmt::format("unnamed_{}", number), tail, rival);
     if (!trial) return {};
     const plant::FormulaCode& code = *trial->effect->formula;
     const Fit fitted = fit_to_all(evidence, trial->fitted);

@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "gap/balance/period_search.h"
+#include "gap/balance/tag_period.h"
 #include "gap/candidates/coupling.h"
 #include "gap/equation/scan.h"
 #include "gap/equation/screening.h"
@@ -33,8 +34,11 @@ namespace {
 using plant::Port;
 
 /// The ports of a block's stage in three groups: the block's own ones, those at which its effects may act,
-/// too, and the others. None where no port belongs to the block.
-std::array<std::vector<Port>, 3> ports_for(std::string_view block) {
+/// too, and the others. None where no port belongs to the block. Where the tags say that the encoder is
+/// wrong, the others are those that displace tags as it does; the encoder's own signal tells them from it.
+std::array<std::vector<Port>, 3> ports_for(std::string_view block, std::optional<Signal> signal) {
+    if (block == plant::describe(Port::encoder).blocks.front() && signal == Signal::tag)
+        return {{{Port::encoder}, {}, {Port::camera_x, Port::tag_x}}};
     std::array<std::vector<Port>, 3> parts;
     for (const plant::PortDescription& port : plant::ports()) {
         if (stage_of(port.blocks.front()) != stage_of(block)) continue;
@@ -47,13 +51,15 @@ std::array<std::vector<Port>, 3> ports_for(std::string_view block) {
 
 class EquationSearch {
   public:
-    EquationSearch(const Evidence& evidence, const CrossFit& base, std::string_view block, std::string name,
-                   double tail, const std::optional<Rival>& rival)
+    EquationSearch(const Evidence& evidence, const CrossFit& base, std::string_view block,
+                   std::optional<Signal> signal, std::string name, double tail,
+                   const std::optional<Rival>& rival)
         : evidence_(evidence),
           base_(base),
           beside_(base),
           rival_(rival),
           block_(block),
+          signal_(signal),
           name_(std::move(name)),
           tail_(tail),
           fitter_(evidence, SearchOptions{}.windows, {}) {}
@@ -64,6 +70,10 @@ class EquationSearch {
         if (stage_of(block_) == Stage::macro)
             for (const PositionPeriod& period : strongest_periods(evidence_, errors))
                 if (periods_mm_.size() < most_periods) periods_mm_.push_back(period.period_mm);
+        if (signal_ == Signal::tag)
+            if (const double period_mm = strongest_tag_period_mm(evidence_, errors, WaveOf::camera);
+                period_mm > 0.0)
+                periods_mm_.push_back(period_mm);
         std::optional<FittedSketch> best;
         try {
             const auto try_all = [&](const std::vector<Sketch>& sketches) {
@@ -77,7 +87,7 @@ class EquationSearch {
                 }
                 return best && leaves_nothing(*best);
             };
-            for (const std::vector<Port>& ports : ports_for(block_))
+            for (const std::vector<Port>& ports : ports_for(block_, signal_))
                 if (try_all(screened_at(ports, errors)) || try_all(scanned_at(ports)) ||
                     (rival_ && rival_->is_credible && !ports.empty()))
                     break;
@@ -364,6 +374,7 @@ class EquationSearch {
     CrossFit beside_;  ///< the base, refitted together with the best formula
     std::optional<Rival> rival_;
     std::string_view block_;
+    std::optional<Signal> signal_;
     std::string name_;
     double tail_;
     CrossFitter fitter_;
@@ -376,9 +387,10 @@ class EquationSearch {
 }  // namespace
 
 std::optional<FittedSketch> search_equation(const Evidence& evidence, const CrossFit& base,
-                                            std::string_view block, const std::string& name, double tail,
+                                            std::string_view block, std::optional<Signal> signal,
+                                            const std::string& name, double tail,
                                             const std::optional<Rival>& rival) {
-    return EquationSearch(evidence, base, block, name, tail, rival).best();
+    return EquationSearch(evidence, base, block, signal, name, tail, rival).best();
 }
 
 }  // namespace fidservo::gap

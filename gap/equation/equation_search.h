@@ -29,13 +29,16 @@ struct Rival {
 /// @param base  the explanation to which it is added
 /// @param block  the block that is probably wrong: its ports come first, and others only if these do not
 /// explain everything
+/// @param signal  in which the block was seen to be wrong. Where tags alone say so of a reading, what
+/// displaces them on the plate as that would is tried, too
 /// @param name  name of the formula effect
 /// @param tail  probability of proposing anything where there is nothing, over the whole search
 /// @param rival  a formula that predicts held-out data worse than it is dropped; if it is credible, also one
 /// that predicts no better than rival and formula together
 /// Throws BudgetEnded if the budget ends before anything was found.
 std::optional<FittedSketch> search_equation(const Evidence& evidence, const CrossFit& base,
-                                            std::string_view block, const std::string& name, double tail,
+                                            std::string_view block, std::optional<Signal> signal,
+                                            const std::string& name, double tail,
                                             const std::optional<Rival>& rival = {});
 
 }  // namespace fidservo::gap

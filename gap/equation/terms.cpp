@@ -225,6 +225,7 @@ void add_camera_terms(TermLibrary& library, plant::Port port, const CoveredRange
             library.add_constant({}, "constant");
             library.add_powers(camera, 3);
             library.add_steps_and_bells(camera);
+            library.add_waves("camera_place", periods_mm);
             library.add_powers(time, 2);
             library.add_fading({}, "fading with time");
             return;

@@ -88,15 +88,20 @@ class Lead {
           run_(run),
           motion_(unknown_path(lead_rows(run.tick_s), followed)),
           trial_(motion_),
-          errors_(motion_.position_mm.size()) {}
+          errors_(motion_.position_mm.size()),
+          slopes_(errors_.size()) {}
 
     /// Simulates from the carried state. At the start of a recording, where this does not reproduce the
     /// counts, also simulates from rest and from other positions in the first count: with a force along the
     /// rail these decide which way the carriage goes.
+    /// @param is_carried  whether the state is one that the window before led to, not one that was guessed
     /// @return the state at the window's first row
-    plant::MacroAxisState enter(const WindowRows& window, const plant::MacroAxisState& carried) {
+    plant::MacroAxisState enter(const WindowRows& window, const plant::MacroAxisState& carried,
+                                bool is_carried) {
         constexpr double enough = 1.0;
         Way best = corrected(window, carried);
+        if (!is_carried && !is_linear() && best.loss > enough)
+            best = corrected_by_trials(window, carried, best);
         if (window.lead > 0 || is_linear() || best.loss <= enough) return best.end;
         CarriagePath path = motion_;
         const auto try_from = [&](const plant::MacroAxisState& other) {
@@ -125,6 +130,7 @@ class Lead {
     struct Way {
         plant::MacroAxisState end;
         double loss;
+        StartCorrection done;
     };
 
     bool is_linear() const {
@@ -137,7 +143,7 @@ class Lead {
         constexpr double enough_count = 0.01;
         const double ticks_per_tau = model_.axis.parameters.time_constant_s / run_.tick_s;
         StartCorrection done;
-        Way way{play(window, carried, done, motion_), std::numeric_limits<double>::infinity()};
+        Way way{play(window, carried, done, motion_), std::numeric_limits<double>::infinity(), done};
         for (int round = 0; round < most_rounds; ++round) {
             const StartCorrection better = estimate_start(errors_, done, ticks_per_tau);
             if (round == 0) way.loss = start_loss(errors_, done);
@@ -147,10 +153,49 @@ class Lead {
             const auto trial_end = play(window, carried, better, trial_);
             const double trial_loss = is_linear() ? 0.0 : start_loss(errors_, better);
             if (trial_loss > way.loss) break;
-            way = {trial_end, trial_loss};
+            way = {trial_end, trial_loss, better};
             done = better;
             std::swap(motion_, trial_);
             if (is_linear()) break;
+        }
+        return way;
+    }
+
+    /// Goes on from a correction, now with how the errors change with it by trial: where friction depends on
+    /// the speed an error of the velocity does not just decay. It grows where friction falls, so that a speed
+    /// that was guessed too large leads to another motion altogether.
+    Way corrected_by_trials(const WindowRows& window, const plant::MacroAxisState& carried, Way way) {
+        constexpr int most_rounds = 6, most_halvings = 5;
+        constexpr double enough_count = 0.01, trial_count = 0.02;
+        for (int round = 0; round < most_rounds; ++round) {
+            (void)play(window, carried, way.done, motion_);
+            const std::vector<double> errors = errors_;
+            const auto changed = [&](double place_count, double coast_count, double StartSlope::*slope) {
+                (void)play(window, carried,
+                           {way.done.place_count + place_count, way.done.coast_count + coast_count}, trial_);
+                for (std::size_t i = 0; i < errors.size(); ++i)
+                    slopes_[i].*slope = (errors_[i] - errors[i]) / trial_count;
+            };
+            changed(trial_count, 0.0, &StartSlope::per_place);
+            changed(0.0, trial_count, &StartSlope::per_coast);
+            const StartCorrection best = estimate_start(errors, way.done, slopes_);
+            StartCorrection change{best.place_count - way.done.place_count,
+                                   best.coast_count - way.done.coast_count};
+            bool improves = false;
+            for (int halving = 0; halving <= most_halvings && !improves; ++halving) {
+                const StartCorrection tried{way.done.place_count + change.place_count,
+                                            way.done.coast_count + change.coast_count};
+                const auto end = play(window, carried, tried, trial_);
+                const double loss = start_loss(errors_, tried);
+                improves = loss < way.loss;
+                if (improves) {
+                    way = {end, loss, tried};
+                    std::swap(motion_, trial_);
+                } else {
+                    change = {0.5 * change.place_count, 0.5 * change.coast_count};
+                }
+            }
+            if (!improves || std::hypot(change.place_count, change.coast_count) < enough_count) break;
         }
         return way;
     }
@@ -175,6 +220,7 @@ class Lead {
     const CarriageRun& run_;
     CarriagePath motion_, trial_;
     std::vector<double> errors_;
+    std::vector<StartSlope> slopes_;
     std::size_t effort_ = 0;  ///< cost so far, in rows
 };
 
@@ -237,9 +283,10 @@ PredictedCounts simulate(const CarriageModel& model, const CarriageRun& run,
             is_carried = false;
             continue;
         }
-        if (!is_carried || !follows) carried = first_state(model, run, window.lead);
+        const bool is_known = is_carried && follows;
+        if (!is_known) carried = first_state(model, run, window.lead);
         is_carried = true;
-        state = lead.enter(window, carried);
+        state = lead.enter(window, carried, is_known);
         state.position_mm += model.start_offset_count * mm_per_count(model.encoder, state.position_mm);
         const std::size_t next_lead = ends_stretch ? window.end : all[k + 1].window.lead;
         predicted.effort += run_rows(model, run, window.first, next_lead, state, motion);

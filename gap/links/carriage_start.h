@@ -20,6 +20,15 @@ struct StartCorrection {
 StartCorrection estimate_start(std::span<const double> error_count, const StartCorrection& done,
                                double ticks_per_tau);
 
+/// How the error of a tick changes with a correction, per count.
+struct StartSlope {
+    double per_place, per_coast;
+};
+
+/// The same for a velocity whose errors do not just decay, but as the given slopes say, one a tick.
+StartCorrection estimate_start(std::span<const double> error_count, const StartCorrection& done,
+                               std::span<const StartSlope> slopes);
+
 /// The loss of a correction: half the sum of the squares of the errors beyond rounding and of the correction
 /// itself (the prior), each in standard deviations.
 double start_loss(std::span<const double> error_count, const StartCorrection& done);

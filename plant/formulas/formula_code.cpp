@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <numbers>
@@ -15,7 +16,9 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <muParser.h>
@@ -97,6 +100,22 @@ std::size_t forbidden_at(const std::string& text) {
     return std::string::npos;
 }
 
+/// Where a character begins that no formula has, a control character or one beyond ASCII, and its bytes;
+/// npos: nowhere.
+std::pair<std::size_t, std::string> foreign_at(const std::string& text) {
+    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+    constexpr std::string_view blanks = "\t\n\r";
+    constexpr unsigned char beyond_ascii = 0x80, goes_on = 0x40;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        if (byte(k) < ' ' && blanks.find(text[k]) == std::string_view::npos) return {k, {}};
+        if (byte(k) < beyond_ascii) continue;
+        std::size_t end = k + 1;
+        while (end < text.size() && byte(end) >= beyond_ascii && (byte(end) & goes_on) == 0) ++end;
+        return {k, text.substr(k, end - k)};
+    }
+    return {std::string::npos, {}};
+}
+
 std::string listed(const std::vector<std::string>& names) {
     std::string list;
     for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
@@ -153,6 +172,10 @@ std::set<std::string> names_in(const std::string& where, const std::string& text
     if (text.size() > longest)
         refuse(where + ": has " + std::to_string(text.size()) +
                " characters; allowed: " + std::to_string(longest) + " at most");
+    if (const auto [at, bytes] = foreign_at(text); at != std::string::npos)
+        refuse_at(at + 1, (bytes.empty() ? "a control character" : '"' + bytes + '"') +
+                              " has no meaning here; allowed: numbers, " + listed(allowed) +
+                              ", + - * / ^, comparisons, c ? a : b, " + functions);
     if (const std::size_t at = forbidden_at(text); at != std::string::npos)
         refuse_at(at + 1,
                   "neither assignments nor strings; allowed: a value, e.g. 0.1 * speed, with == to compare");
@@ -339,13 +362,12 @@ double FormulaCode::extent(std::size_t memory, std::span<const double> parameter
 }
 
 void FormulaCode::demand_extents(std::span<const double> parameters) const {
-    constexpr double longest_s = 10.0;
     for (std::size_t k = 0; k < effect_.memories.size(); ++k) {
         const FormulaEffect::Memory& memory = effect_.memories[k];
         if (memory.kind == FormulaEffect::Memory::Kind::state) continue;
         const bool is_delay = memory.kind == FormulaEffect::Memory::Kind::delay;
         const double value = extent(k, parameters);
-        if (value >= 0.0 && (is_delay ? value <= longest_s : std::isfinite(value))) continue;
+        if (value >= 0.0 && (is_delay ? value <= longest_delay_s : std::isfinite(value))) continue;
         std::ostringstream what;
         what << extent_key(memory) << ": is " << value << (is_delay ? " s" : "") << at_values(parameters)
              << "; allowed: " << (is_delay ? "0 to 10 s" : "numbers not below 0");

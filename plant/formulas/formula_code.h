@@ -20,6 +20,7 @@ namespace fidservo::plant {
 
 inline constexpr std::size_t most_memories = 8;  ///< at one site
 inline constexpr std::size_t most_formula_parameters = 16;
+inline constexpr double longest_delay_s = 10.0;
 
 /// What a formula gives, with the values of its parameters, no machine has: "NAME: KEY: what; allowed".
 class FormulaFault : public InputError {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plant/formulas/formula_effect.h"
 
+#include "core/demand.h"
 #include "core/input_error.h"
+#include "core/rig.h"
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_code.h"
 
@@ -14,6 +16,7 @@
 #include <mutex>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fidservo::plant {
@@ -51,6 +54,20 @@ bool is_of_effect_name(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
 }
 
+/// A parameter as a size of the change from a stated value.
+EffectParameter change_from(double stated, const FormulaEffect::Parameter& text, EffectParameter parameter) {
+    constexpr double share_of_value = 0.2, share_of_range = 0.05;
+    const double none = text.role == "size" ? text.vanishing : 0.0;
+    const double step =
+        stated == none ? share_of_range * (text.high - text.low) : share_of_value * std::abs(stated - none);
+    parameter.vanishing = stated;
+    parameter.typical = stated + step <= text.high ? stated + step : std::max(text.low, stated - step);
+    parameter.role = Role::size;
+    parameter.starts = {};
+    parameter.negligible = 0.0;
+    return parameter;
+}
+
 class FormulaOfName {
   public:
     explicit FormulaOfName(const FormulaEffect& text) : text_(text) {
@@ -77,7 +94,13 @@ class FormulaOfName {
         effect_.source = text_.source;
         effect_.parameters = parameters_;
         effect_.needs_place = code.port().site != Site::micro && uses_place(code);
+        effect_.again = Again::replaces;
         effect_.formula = &code;
+    }
+    /// @param stated  the values that a rig file states
+    FormulaOfName(const FormulaEffect& text, std::span<const double> stated) : FormulaOfName(text) {
+        for (std::size_t k = 0; k < parameters_.size(); ++k)
+            parameters_[k] = change_from(stated[k], text_.parameters[k], parameters_[k]);
     }
     FormulaOfName(const FormulaOfName&) = delete;  // the effect points at what is here
     FormulaOfName& operator=(const FormulaOfName&) = delete;
@@ -157,6 +180,19 @@ const Effect& effect_of(const FormulaEffect& text) {
     const std::lock_guard lock(guard);
     std::unique_ptr<const FormulaOfName>& known = all[&code];
     if (!known) known = std::make_unique<const FormulaOfName>(code.effect());
+    return known->effect();
+}
+
+const Effect& refit_of(const StatedEffect& stated) {
+    FIDSERVO_DEMAND(stated.formula.has_value());
+    static std::mutex guard;
+    static std::map<std::pair<const FormulaCode*, std::vector<double>>, std::unique_ptr<const FormulaOfName>>
+        all;
+    const FormulaCode& code = FormulaCode::of(*stated.formula);
+    const std::vector<double> values = setting_of(stated).values;
+    const std::lock_guard lock(guard);
+    std::unique_ptr<const FormulaOfName>& known = all[{&code, values}];
+    if (!known) known = std::make_unique<const FormulaOfName>(code.effect(), values);
     return known->effect();
 }
 

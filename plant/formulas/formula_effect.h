@@ -7,6 +7,10 @@
 #include <span>
 #include <string>
 
+namespace fidservo {
+struct StatedEffect;
+}
+
 namespace fidservo::plant {
 
 /// The effect of a formula's text: for the same text the same effect, which lives until the program ends. May
@@ -15,7 +19,14 @@ namespace fidservo::plant {
 /// effect of the catalogue.
 const Effect& effect_of(const FormulaEffect& text);
 
-/// Puts a formula into a plant's parameters.
+/// A formula that a rig file states, as an effect whose parameters take the place of the stated ones: it is
+/// absent where they are the stated ones, and each of them is a size of the change, by a fifth of its own
+/// size where that is typical. Otherwise like effect_of().
+/// @param stated  has a formula
+const Effect& refit_of(const StatedEffect& stated);
+
+/// Puts a formula into a plant's parameters. Where the plant has it already, with the values of before, these
+/// are replaced.
 /// @param stated_at  as in StatedEffect
 void add_formula(const FormulaCode& code, PlantParameters& plant, std::span<const double> values,
                  const std::string& stated_at);

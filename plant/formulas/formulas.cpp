@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plant/formulas/formulas.h"
 
-#include "core/input_error.h"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 namespace fidservo::plant {
 
@@ -24,14 +23,20 @@ std::span<const double> memories_of(const FormulaTerm& term, const FormulaMemory
     throw InputError(stated_at + "." + what);
 }
 
-[[noreturn]] void refuse_value(const FormulaTerm& term, double value, std::span<const double> variables) {
+/// @param state  of which it is the value; nullptr: of the formula
+[[noreturn]] void refuse_value(const FormulaTerm& term, double value, std::span<const double> variables,
+                               const FormulaEffect::Memory* state = nullptr) {
     const PortDescription& port = term.code->port();
+    const std::string_view unit = state != nullptr ? std::string_view{} : port.unit;
     std::ostringstream text;
-    text << "formula: gives ";
+    if (state != nullptr)
+        text << "state." << state->name << ": comes to ";
+    else
+        text << "formula: gives ";
     if (std::isnan(value))
         text << "no number";
     else
-        text << value << ' ' << port.unit;
+        text << value << (unit.empty() ? "" : " ") << unit;
     const auto known = variables_of(port.site);
     const char* separator = " at ";
     for (const std::size_t k : port.variables) {
@@ -39,8 +44,11 @@ std::span<const double> memories_of(const FormulaTerm& term, const FormulaMemory
         text << separator << known[k].name << " = " << variables[k];
         separator = ", ";
     }
-    text << term.code->at_values(term.parameters) << "; allowed: numbers up to " << port.limit << ' '
-         << port.unit;
+    text << term.code->at_values(term.parameters);
+    if (state != nullptr)
+        text << "; allowed: any finite number";
+    else
+        text << "; allowed: numbers up to " << port.limit << (unit.empty() ? "" : " ") << unit;
     refuse(*term.code, term.stated_at, text.str());
 }
 
@@ -81,26 +89,43 @@ std::size_t ring_size(double delay_s, double tick_s) {
     return static_cast<std::size_t>(std::ceil(delay_s / tick_s)) + 2;
 }
 
+bool vanishes(const FormulaTerm& term) {
+    const std::vector<FormulaEffect::Parameter>& known = term.code->effect().parameters;
+    for (std::size_t k = 0; k < term.parameters.size(); ++k)
+        if (known[k].role == "size" && term.parameters[k] != known[k].vanishing) return false;
+    return true;
+}
+
 }  // namespace
 
 void Formulas::add(const FormulaCode& code, std::span<const double> parameters,
                    const std::string& stated_at) {
+    std::vector<FormulaTerm> terms = std::move(terms_);
+    FormulaTerm own{&code, {parameters.begin(), parameters.end()}, 0, stated_at};
+    const auto before = std::ranges::find(terms, &code, &FormulaTerm::code);
+    if (before != terms.end())
+        *before = std::move(own);
+    else
+        terms.push_back(std::move(own));
+    *this = Formulas();
+    for (FormulaTerm& term : terms)
+        if (!vanishes(term)) take_in(std::move(term));
+}
+
+void Formulas::take_in(FormulaTerm term) {
+    const FormulaCode& code = *term.code;
     const FormulaEffect& effect = code.effect();
-    bool vanishes = true;
-    for (std::size_t k = 0; k < parameters.size(); ++k)
-        if (effect.parameters[k].role == "size" && parameters[k] != effect.parameters[k].vanishing)
-            vanishes = false;
-    if (vanishes) return;
     if (memories_ + effect.memories.size() > most_memories)
-        refuse(code, stated_at,
+        refuse(code, term.stated_at,
                "state: with those of the other effects there are more than " + std::to_string(most_memories) +
                    " quantities that remember; allowed: no more");
     try {
-        code.demand_extents(parameters);
+        code.demand_extents(term.parameters);
     } catch (const FormulaFault& fault) {
-        refuse(code, stated_at, fault.rest());
+        refuse(code, term.stated_at, fault.rest());
     }
-    terms_.push_back({&code, {parameters.begin(), parameters.end()}, memories_, stated_at});
+    term.first_memory = memories_;
+    terms_.push_back(std::move(term));
     memories_ += effect.memories.size();
     acting_.set(static_cast<std::size_t>(code.port().port));
     for (std::size_t k = 0; k < most_variables; ++k)
@@ -115,6 +140,14 @@ double Formulas::value(Port port, std::span<const double> variables, const Formu
         if (!(std::abs(value) <= term.code->port().limit)) refuse_value(term, value, variables);
         sum += value;
     }
+    return sum;
+}
+
+double Formulas::any_value(Port port, std::span<const double> variables, const FormulaMemory& memory) const {
+    double sum = 0.0;
+    for (const FormulaTerm& term : terms_)
+        if (term.code->port().port == port)
+            sum += term.code->value(variables, memories_of(term, memory), term.parameters);
     return sum;
 }
 
@@ -176,7 +209,7 @@ void Formulas::begin_tick(const FormulaTerm& term, FormulaMemory& memory, std::s
         double& next = memory.next[term.first_memory + k];
         next = memory.values[term.first_memory + k] +
                tick_s * rate * (std::abs(way) < straight ? 1.0 : std::expm1(way) / way);
-        if (!std::isfinite(next)) refuse_value(term, next, variables);
+        if (!std::isfinite(next)) refuse_value(term, next, variables, &kept[k]);
     }
 }
 

@@ -40,8 +40,9 @@ struct FormulaMemory {
 
 class Formulas {
   public:
-    /// Adds a formula. Nothing is added where all sizes vanish. Throws InputError where there are too many
-    /// memories, and where FormulaCode::demand_extents() does.
+    /// Adds a formula; one that is there already gets new values in its place. It is absent where all sizes
+    /// vanish. Throws InputError where there are too many memories, and where FormulaCode::demand_extents()
+    /// does.
     /// @param parameters  those of the effect, in its order
     /// @param stated_at  as in StatedEffect: with it an error is "STATED_AT.KEY: ...", else a FormulaFault
     void add(const FormulaCode& code, std::span<const double> parameters, const std::string& stated_at = {});
@@ -55,6 +56,9 @@ class Formulas {
     /// more than any machine has (PortDescription::limit).
     double value(Port port, std::span<const double> variables, const FormulaMemory& memory) const;
 
+    /// The same without a limit, for states that a computation only tries.
+    double any_value(Port port, std::span<const double> variables, const FormulaMemory& memory) const;
+
     /// The memories' state after the variables have had the given values for a long time.
     FormulaMemory start(std::span<const double> variables, double tick_s) const;
     /// Begins a tick: updates the memories. Does not allocate. If the tick's length differs from that at the
@@ -62,6 +66,7 @@ class Formulas {
     void begin_tick(FormulaMemory& memory, std::span<const double> variables, double tick_s) const;
 
   private:
+    void take_in(FormulaTerm term);
     static void begin_tick(const FormulaTerm& term, FormulaMemory& memory, std::span<const double> variables,
                            double tick_s, std::size_t& ring);
 

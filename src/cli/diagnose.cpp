@@ -2,7 +2,6 @@
 // fidservo diagnose: where recordings of a rig and its simulator disagree, and by which effect.
 #include "core/input_error.h"
 #include "core/rig.h"
-#include "plant/effects/effect.h"
 #include "src/cli/commands.h"
 #include "src/cli/self_check.h"
 #include "src/compare/comparison.h"
@@ -18,7 +17,6 @@
 #include "src/files/rig/stage_keys.h"
 #include "src/process/interrupt.h"
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -137,20 +135,6 @@ int compare_sets(const DiagnoseOptions& options, const Rig& rig) {
     return exit_done;
 }
 
-/// Throws InputError where --write-rig could not state what an effects file may find.
-void demand_names_of_their_own(const DiagnoseOptions& options, const Rig& rig,
-                               const gap::DiagnosisOptions& what) {
-    if (options.write_rig.empty()) return;
-    for (const plant::Effect* formula : what.formulas) {
-        const auto stated = std::ranges::find(rig.effects, formula->name, &StatedEffect::name);
-        if (stated != rig.effects.end() && stated->formula)
-            throw InputError(
-                fmt::format("--effects-file: {}: {}: {} states a formula of that name already, beside "
-                            "which --write-rig cannot write another; allowed: another name",
-                            options.asked.effects_file.string(), formula->name, options.rig_file.string()));
-    }
-}
-
 int run_diagnose(const DiagnoseOptions& options) {
     demand_new_file("--json", options.json);
     diagnose::keep_memory();
@@ -163,7 +147,6 @@ int run_diagnose(const DiagnoseOptions& options) {
     demand_experiment_file(options.write_experiment);
     const Rig rig = load_rig(options.rig_file);
     const gap::DiagnosisOptions what = diagnose::options_of(options.asked, rig);
-    demand_names_of_their_own(options, rig, what);
     try {
         if (!options.compare.empty()) return compare_sets(options, rig);
         return diagnose_rig(options, rig, what);

@@ -3,14 +3,18 @@
 
 #include "core/input_error.h"
 #include "core/rig.h"
+#include "plant/formulas/formula_code.h"
+#include "plant/formulas/formula_effect.h"
 #include "src/diagnose/matters.h"
 #include "src/diagnose/next_experiment.h"
 #include "src/diagnose/thinned.h"
 #include "src/files/rig/effects_file.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -27,6 +31,22 @@ TimeLimit limit_of(const Conduct& conduct, const std::vector<Recording>& recordi
     return {times * limit.search_s, times * limit.whole_s, times * limit.equation_s};
 }
 
+/// The formulas of an effects file but those that the rig file states, which are tried in any case. Throws
+/// InputError where another one has the name of a stated one.
+std::vector<const plant::Effect*> formulas_beside(const Rig& rig, const std::filesystem::path& file) {
+    std::vector<const plant::Effect*> formulas = load_effects_file(file);
+    std::erase_if(formulas, [&](const plant::Effect* formula) {
+        const auto stated = std::ranges::find(rig.effects, formula->name, &StatedEffect::name);
+        if (stated == rig.effects.end() || !stated->formula) return false;
+        if (*stated->formula == formula->formula->effect()) return true;
+        throw InputError(
+            fmt::format("--effects-file: {}: {}: the rig file states another formula of that name; "
+                        "allowed: another name",
+                        file.string(), formula->name));
+    });
+    return formulas;
+}
+
 double gone_since(std::chrono::steady_clock::time_point then) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
 }
@@ -39,9 +59,12 @@ double usual_effort_s() {
 
 gap::DiagnosisOptions options_of(const Asked& asked, const Rig& rig) {
     gap::DiagnosisOptions options{.only = asked.only, .without = asked.without, .selection = {}};
-    if (!asked.effects_file.empty()) options.formulas = load_effects_file(asked.effects_file);
-    demand_effects("--effects", asked.only, options.formulas);
-    demand_effects("--without", asked.without, options.formulas);
+    if (!asked.effects_file.empty()) options.formulas = formulas_beside(rig, asked.effects_file);
+    std::vector<const plant::Effect*> known = options.formulas;
+    for (const StatedEffect& stated : rig.effects)
+        if (stated.formula) known.push_back(&plant::refit_of(stated));
+    demand_effects("--effects", asked.only, known);
+    demand_effects("--without", asked.without, known);
     options.matters = what_matters(asked.matters, rig);
     return options;
 }

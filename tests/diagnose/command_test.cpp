@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -90,24 +92,32 @@ TEST(DiagnoseCommand, RigWithoutAWire_IsAskedForAnExperimentAsWell) {
 }
 
 /// Said before the search, which may take half a minute.
-TEST(DiagnoseCommand, FormulaOfANameThatTheRigFileStates_CannotBeWrittenBeside) {
+TEST(DiagnoseCommand, FormulaOfANameThatTheRigFileStates_IsRefused_UnlessItIsTheSame) {
     const TemporaryFolder folder;
-    const std::string formula =
-        "name: drag\n    block: macro.friction\n    acts_on: macro.friction\n"
-        "    formula: k * speed\n    parameters:\n"
-        "      k: {unit: V s/mm, bounds: [0, 1e-3], typical: 1e-5";
-    std::ofstream(folder / "effects.yaml")
-        << "format: fidservo-effects/1\neffects:\n  - " << formula << "}\n";
+    const auto formula_of = [](const char* what) {
+        return fmt::format(
+            "name: drag\n    block: macro.friction\n    acts_on: macro.friction\n"
+            "    formula: {}\n    parameters:\n"
+            "      k: {{unit: V s/mm, bounds: [0, 1e-3], typical: 1e-5",
+            what);
+    };
+    const std::string formula = formula_of("k * speed");
+    for (const auto& [file, text] :
+         {std::pair{"other.yaml", formula_of("k * speed * abs(speed)")}, std::pair{"same.yaml", formula}})
+        std::ofstream(folder / file) << "format: fidservo-effects/1\neffects:\n  - " << text << "}\n";
     std::string rig = testing::text_of(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
     rig = rig.substr(0, rig.find("micro:"));
     std::ofstream(folder / "rig.yaml") << rig << "effects:\n  - " << formula << ", value: 1e-5}\n";
     ASSERT_EQ(
         run_program({"simulate", "rest", "--rig", "rig.yaml", "--out", "rest"}, folder.path()).exit_code, 0);
-    const ProgramRun run = run_program({"diagnose", "--rig", "rig.yaml", "rest", "--effects-file",
-                                        "effects.yaml", "--write-rig", "new.yaml"},
-                                       folder.path());
-    EXPECT_EQ(run.exit_code, 2);
-    EXPECT_THAT(run.err, HasSubstr("effects.yaml: drag: rig.yaml states a formula of that name already"));
+    const ProgramRun other =
+        run_program({"diagnose", "--rig", "rig.yaml", "rest", "--effects-file", "other.yaml"}, folder.path());
+    EXPECT_EQ(other.exit_code, 2);
+    EXPECT_THAT(other.err, HasSubstr("other.yaml: drag: the rig file states another formula of that name"));
+    const ProgramRun same = run_program(
+        {"diagnose", "--rig", "rig.yaml", "rest", "--effects", "drag", "--effects-file", "same.yaml"},
+        folder.path());
+    EXPECT_EQ(same.exit_code, 0) << same.err;
 }
 
 TEST(SlowDiagnoseCommand, Tie_LeadsToAnExperimentThatSimulateTakes) {

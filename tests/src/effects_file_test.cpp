@@ -11,8 +11,10 @@
 #include "tests/src/run_program.h"
 #include "tests/src/temporary_folder.h"
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -120,6 +122,37 @@ TEST(EffectsFile, Mistakes_AreNamedWithFileLineKeyAndWhatIsAllowed) {
     EXPECT_THAT(mistake(two_effects, "warm: (abs", "warm: (ab"), HasSubstr("effects[1].state.warm"));
     EXPECT_THAT(mistake(two_effects, "typical: 5.0e-6", "typical: 5.0e-6, value: 1.0e-6"),
                 HasSubstr("value"));
+    EXPECT_THAT(
+        mistake(two_effects, "drag * speed", "drag \u2212 speed"),
+        HasSubstr("effects[0].formula: drag \u2212 speed * abs(speed): character 6: \"\u2212\" has no "
+                  "meaning here; allowed: numbers"));
+    EXPECT_THAT(mistake(two_effects, "drag * speed", "drag\\0 * speed"),
+                HasSubstr("character 5: a control character has no meaning here"));
+}
+
+TEST(EffectsFile, FormulaThatARigFileStates_IsReplacedByItsRefit) {
+    const TemporaryFolder folder;
+    const auto effects = load_effects_file(folder.write("effects.yaml", two_effects));
+    RigEdit edit(std::filesystem::path(FIDSERVO_ASSETS_DIR) / "rig.yaml");
+    edit.state_effect(plant::stated({effects[0], {2e-6}}));
+    edit.save(folder / "rig.yaml");
+    const Rig rig = load_rig(folder / "rig.yaml");
+    const plant::Effect& refit = plant::refit_of(rig.effects[0]);
+    EXPECT_EQ(&refit, &plant::refit_of(rig.effects[0])) << "made once";
+    EXPECT_EQ(refit.name, "air_drag");
+    EXPECT_EQ(refit.parameters[0].vanishing, 2e-6);
+    EXPECT_DOUBLE_EQ(refit.parameters[0].typical, 2.4e-6);
+    plant::PlantParameters parameters = plant::plant_parameters(rig);
+    plant::put(refit, parameters, std::vector{7e-6});
+    std::array<double, plant::carriage_variable::count> at{};
+    at[plant::carriage_variable::speed] = 100.0;
+    EXPECT_DOUBLE_EQ(parameters.axis.formulas.value(plant::Port::friction, at, {}), 7e-6 * 1e4);
+    RigEdit again(folder / "rig.yaml");
+    again.add_effect(plant::stated({&refit, {7e-6}}));
+    again.save(folder / "new.yaml");
+    const Rig changed = load_rig(folder / "new.yaml");
+    ASSERT_EQ(changed.effects.size(), 1u);
+    EXPECT_EQ(plant::setting_of(changed.effects[0]).values[0], 7e-6);
 }
 
 TEST(EffectsFile, StatedInARigFile_IsReadBackAsItWasWritten) {

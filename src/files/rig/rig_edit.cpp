@@ -106,6 +106,7 @@ YAML::Node map_of(const std::vector<std::pair<std::string, double>>& values) {
 struct RigEdit::Impl {
     fs::path source;
     YAML::Node root;
+    std::vector<StatedEffect> stated;  ///< by the source
     std::shared_ptr<const FodTable> fod;
 
     /// Of an effect among those that the file states.
@@ -127,7 +128,7 @@ struct RigEdit::Impl {
 };
 
 RigEdit::RigEdit(const fs::path& source) : impl_(std::make_unique<Impl>()) {
-    load_rig(source);
+    impl_->stated = load_rig(source).effects;
     impl_->source = source;
     impl_->root = YAML::LoadFile(source.string());
 }
@@ -168,7 +169,10 @@ void RigEdit::state_effect(const StatedEffect& effect) {
 
 void RigEdit::add_effect(const StatedEffect& found) {
     const auto at = impl_->place_of(found.name);
-    if (!at) return state_effect(found);
+    const auto before = std::ranges::find(impl_->stated, found.name, &StatedEffect::name);
+    const bool is_refitted =
+        before != impl_->stated.end() && before->formula && before->formula == found.formula;
+    if (!at || is_refitted) return state_effect(found);
     StatedEffect stated{found.name, {}};
     for (const auto& entry : impl_->root["effects"][*at]) {
         const auto key = entry.first.as<std::string>();

@@ -68,5 +68,24 @@ TEST(SlowEquation, LawBesideANameThatIsRight_LeavesTheName) {
     EXPECT_NEAR(factor.value, 0.9, 0.01) << "beside the law, the gain makes up for nothing";
 }
 
+/// The tags alone are off, as if the encoder read falsely; its own signal says that it does not.
+TEST(SlowEquation, WaveAlongTheCamerasWay_IsProposedThere) {
+    FormulaEffect wave;
+    wave.name = "wave_of_test";
+    wave.acts_on = "camera.x";
+    wave.block = "camera.geometry";
+    wave.formula = "size * sin(2 * pi * camera_place / 12)";
+    wave.parameters.push_back({.name = "size", .unit = "mm", .low = -1.0, .high = 1.0, .typical = 0.1});
+    const Evidence evidence =
+        testing::campaign({plant::typical_setting(plant::effect_of(wave))},
+                          {"macro-pulses", "macro-square", "macro-sweep", "micro-steps", "integrated"});
+    const Diagnosis diagnosis = diagnosed(evidence, {"encoder_ripple"});
+    EXPECT_TRUE(diagnosis.effects.empty());
+    ASSERT_TRUE(diagnosis.unexplained && diagnosis.unexplained->equation);
+    EXPECT_EQ(diagnosis.unexplained->equation->acts_on, "camera.x");
+    EXPECT_GT(diagnosis.unexplained->equation->gap_removed, 0.99);
+    EXPECT_EQ(diagnosis.unexplained->block, "camera.geometry");
+}
+
 }  // namespace
 }  // namespace fidservo::gap

@@ -83,5 +83,19 @@ TEST(CarriageStart, WithACorrectionDone_TheSameOneIsFound) {
     EXPECT_NEAR(on.coast_count, at_once.coast_count, 1e-3);
 }
 
+TEST(CarriageStart, VelocityWhoseErrorsGrow_IsCorrectedByTheirSlopes) {
+    std::vector<StartSlope> slopes;
+    slopes.reserve(ticks);
+    std::vector<double> errors;
+    errors.reserve(ticks);
+    for (int k = 0; k < ticks; ++k) {
+        slopes.push_back({1.0, std::expm1(k / 30.0)});
+        errors.push_back(-2.0 * slopes.back().per_coast);
+    }
+    const StartCorrection found = estimate_start(errors, {}, slopes);
+    EXPECT_NEAR(found.coast_count, 2.0, 0.05);
+    EXPECT_LT(std::abs(found.place_count), 0.5);
+}
+
 }  // namespace
 }  // namespace fidservo

@@ -64,6 +64,32 @@ TEST(Formulas, Sum_IsOverThoseOfThePort) {
     EXPECT_DOUBLE_EQ(formulas.value(Port::friction, at_speed(3.0), {}), 21.0);
 }
 
+/// A rig file's formula with other values, as a diagnosis tries it.
+TEST(Formulas, SameFormulaAgain_GetsTheNewValuesInItsPlace) {
+    const FormulaEffect text = remembering(Kind::delay, "speed", "b");
+    Formulas formulas = formulas_of(text);
+    formulas.add(FormulaCode::of(text), std::array{3.0, 0.02});
+    EXPECT_DOUBLE_EQ(formulas.value(Port::friction, at_speed(2.0), formulas.start(at_speed(2.0), tick_s)),
+                     6.0);
+    formulas.add(FormulaCode::of(text), std::array{0.0, 0.02});
+    EXPECT_FALSE(formulas.any());
+    EXPECT_FALSE(formulas.act(Port::friction));
+    EXPECT_FALSE(formulas.remember());
+}
+
+TEST(Formulas, StateThatIsNoNumber_IsNamed) {
+    const Formulas formulas = formulas_of(remembering(Kind::state, "sqrt(speed)"));
+    FormulaMemory memory = formulas.start(at_speed(4.0), tick_s);
+    try {
+        formulas.begin_tick(memory, at_speed(-4.0), tick_s);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(),
+                    testing::HasSubstr("of_test: state.z: comes to no number at speed = -4 with "));
+        EXPECT_THAT(error.what(), testing::HasSubstr("; allowed: any finite number"));
+    }
+}
+
 TEST(Formulas, NoNumberOrTooLarge_IsAnErrorThatSaysWhere) {
     const Formulas formulas =
         formulas_of(formula_text("macro.friction", "macro.friction", "a * sqrt(speed)", {{"a", 1.0}}));
@@ -158,8 +184,10 @@ TEST(Formulas, Delay_IsWhatWasThenByStraightLines) {
         formulas.begin_tick(between, at_speed(1e3), 0.3 * tick_s);
         EXPECT_EQ(between.values[0], memory.values[0]);
     }
-    text.parameters[1].typical = -0.1;
-    EXPECT_THROW((void)formulas_of(text).start(at_speed(0.0), tick_s), InputError);
+    for (const double delay_s : {-0.1, 10.5}) {
+        text.parameters[1].typical = delay_s;
+        EXPECT_THROW((void)formulas_of(text).start(at_speed(0.0), tick_s), InputError);
+    }
 }
 
 TEST(Formulas, TwoEffects_RememberEachItsOwn) {

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The carriage is predicted from the state in which a window finds it.
+#include "gap/evidence.h"
+#include "src/simulation/planned_experiments.h"
+#include "src/simulation/simulate.h"
+#include "tests/reference_rig.h"
+#include "tests/src/temporary_folder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace fidservo::gap {
+namespace {
+
+/// The largest r.m.s. error of the encoder's windows, in floors, where the rig is what its file says.
+double worst_window(const Rig& rig, const std::string& experiment) {
+    const testing::TemporaryFolder folder;
+    const PlannedExperiment planned = planned_experiment(folder.write("to-and-fro.yaml", experiment), rig, 1);
+    const Evidence evidence(rig, {simulate(rig, {}, planned.experiment, planned.name, 1)});
+    const Errors errors = evidence.errors({}, everything(evidence));
+    double worst = 0.0;
+    for (const Window& window : evidence.windows()) {
+        if (window.signal != Signal::encoder) continue;
+        double sum = 0.0;
+        for (std::size_t i = window.begin; i < window.end; ++i)
+            if (!std::isnan(errors[i])) sum += errors[i] * errors[i];
+        worst = std::max(worst, std::sqrt(sum / static_cast<double>(window.end - window.begin)));
+    }
+    return worst;
+}
+
+/// It stands two counts from the end of travel, where no row is judged, and breaks away slowly. Friction that
+/// falls with the speed multiplies what the speed is off by where the first window begins.
+TEST(CarriageLink, BreakAwayBesideAnEndOfTravel_IsFollowedWithFrictionThatFalls) {
+    Rig rig = reference_rig();
+    rig.effects = {{"stribeck_friction", {{"level_V", 0.3}, {"speed_mm_per_s", 12.0}}}};
+    for (const double V_per_s : {1.0, 2.0, 4.0})
+        EXPECT_LT(worst_window(rig, fmt::format("name: to-and-fro\n"
+                                                "carriage_mm: 199.9\n"
+                                                "macro:\n"
+                                                "  - {{ ramp_V: [-2.5, {}], duration_s: 0.5 }}\n"
+                                                "  - {{ hold: last, duration_s: 0.3 }}\n"
+                                                "  - {{ constant_V: -4, duration_s: 0.4 }}\n"
+                                                "  - {{ constant_V: 0, duration_s: 2 }}\n",
+                                                -2.5 - 0.5 * V_per_s)),
+                  1.5)
+            << V_per_s;
+}
+
+}  // namespace
+}  // namespace fidservo::gap
