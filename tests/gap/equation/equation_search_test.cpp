@@ -19,9 +19,9 @@ constexpr double tail = 0.01;
 
 TEST(SlowEquationSearch, RigWithoutAGap_HasNone) {
     const Evidence evidence = testing::campaign({}, {"macro-pulses"});
-    EXPECT_FALSE(
-        search_equation(evidence, testing::nothing_named(evidence), "macro.friction", "of_test", tail)
-            .has_value());
+    EXPECT_FALSE(search_equation(evidence, testing::nothing_named(evidence), "macro.friction",
+                                 Signal::encoder, "of_test", tail)
+                     .has_value());
 }
 
 /// A force that is no effect of the catalogue: bearings that turn harder at one end of the rail and easier at
