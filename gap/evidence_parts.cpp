@@ -8,6 +8,7 @@
 #include "gap/evidence/plate_tag.h"
 #include "gap/links/wire_memory.h"
 #include "gap/links/wire_start.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -110,7 +111,7 @@ void note_late_ticks(Evidence::Parts& parts, std::size_t run) {
          fmt::format(
              "the loop left out {:.0f} % of its ticks; where that was more than two at a time, nothing "
              "is judged",
-             100.0 * share)});
+             percent * share)});
 }
 
 void note_omissions(Evidence::Parts& parts, std::size_t run) {

@@ -6,6 +6,9 @@
 
 namespace fidservo::gap {
 
+/// How many of several waves, or forms of a model, are fitted.
+inline constexpr std::size_t most_fitted_forms = 4;
+
 /// Fits effects' settings, in addition to a base hypothesis, to the balance of forces, with residuals
 /// over ForceBalance::deviations standard deviations under the settings themselves. Its arguments must
 /// outlive it.

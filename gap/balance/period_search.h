@@ -11,6 +11,9 @@ namespace fidservo::gap {
 /// The longest period of the waves that are looked for along the rail.
 inline constexpr double longest_period_mm = 50.0;
 
+/// The largest number of peaks of a search along the rail that are worth a look.
+inline constexpr std::size_t most_peaks = 4;
+
 /// A sin(2 pi y / p + phase) as a function of the position y on the rail.
 struct Wave {
     double amplitude = 0.0, phase_rad = 0.0;

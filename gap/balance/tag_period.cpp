@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/balance/tag_period.h"
 
+#include "gap/balance/period_search.h"
 #include "gap/links/tag_sight.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,14 +29,14 @@ std::vector<double> positions_mm(const Evidence& evidence) {
 }  // namespace
 
 double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors) {
-    constexpr double shortest_mm = 1.0, longest_mm = 50.0;
+    constexpr double shortest_mm = 1.0, turns_apart = 0.25;
     const std::vector<double> places = positions_mm(evidence);
     if (places.empty()) return 0.0;
     const auto [low, high] = std::ranges::minmax(places);
-    const double step_per_mm = 0.25 / std::max(longest_mm, high - low);
+    const double step_per_mm = turns_apart / std::max(longest_period_mm, high - low);
     double best_mm = 0.0, most = 0.0;
-    for (double per_mm = 1.0 / longest_mm; per_mm <= 1.0 / shortest_mm; per_mm += step_per_mm) {
-        Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() * 1e-9;
+    for (double per_mm = 1.0 / longest_period_mm; per_mm <= 1.0 / shortest_mm; per_mm += step_per_mm) {
+        Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() * next_to_nothing;
         Eigen::Vector2d right = Eigen::Vector2d::Zero();
         std::size_t at = 0;
         for (const Window& window : evidence.windows()) {
@@ -50,7 +52,7 @@ double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors) {
                 sum += row;
                 count += 1.0;
             }
-            if (count < 3.0) continue;
+            if (count <= 2.0) continue;
             own -= sum * sum.transpose() / count;
             const double weight = 1.0 / (count + own(2, 2));
             normal += weight * own.topLeftCorner<2, 2>();

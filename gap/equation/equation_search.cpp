@@ -202,9 +202,9 @@ class EquationSearch {
 
     Promise promised(const Sketch& sketch, const CrossFit& beside) const {
         const Hypothesis start = with(sketch);
-        constexpr int few_iterations = 5;
+        constexpr int trial_iterations = 5;
         const Fit fit = fitter_.fit_places(0, start, {start.size() - 1}, beside.mean_squares,
-                                           {.most_iterations = few_iterations});
+                                           {.most_iterations = trial_iterations});
         return saved(sketch, fit.hypothesis, beside);
     }
 

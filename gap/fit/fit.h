@@ -26,13 +26,13 @@ struct Fit {
     Eigen::MatrixXd curvature_covariance = {};
 };
 
-/// Steps of numerical derivatives, in scales of a parameter. Of effects that move the carriage the usual step
-/// is larger than the scatter from stick-slip. The close step serves near the optimum, where the usual one
-/// would leave the small range of values that predict the carriage's readings, rounded to counts, equally
-/// well. What other effects do is smooth: their step is the root of the relative rounding of errors, which
-/// makes rounding and curvature count alike (Nocedal, Wright, Numerical Optimization, 2nd ed., 2006,
-/// ch. 8.1).
+/// Steps of numerical derivatives, in scales of a parameter: of effects that move the carriage, usually and
+/// near the optimum; and of effects whose errors are smooth.
 inline constexpr double usual_step = 0.01, close_step = 0.001, smooth_step = 3.45e-4;
+
+/// Tolerance of a fit whose values and covariance are reported, and iterations of one that begins nearby.
+inline constexpr double close_tolerance = 1e-6;
+inline constexpr int few_iterations = 6;
 
 struct FitOptions {
     int most_iterations = 12;

@@ -17,6 +17,9 @@
 
 namespace fidservo::gap {
 
+/// Shares of the best gain from which on a simpler group is as good: usually, and for forces and tags.
+inline constexpr double usually_as_good = 0.8, nearly_as_good = 0.95;
+
 /// Values of a regressor, laid out like the errors of the windows concerned.
 struct Column {
     int group;  ///< columns with the same number stand for one cause

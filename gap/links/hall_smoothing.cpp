@@ -44,6 +44,7 @@ class LineFits {
     }
 
   private:
+    /// Mathematics: the sum of squared distances of so many neighbouring rows from their middle.
     static double spread(double count) { return count * (count * count - 1.0) / 12.0; }
 
     std::vector<double> sums_, moments_;
@@ -59,7 +60,7 @@ std::vector<Stretch> pieces_of(const PlatformRun& run) {
         if (usable) pieces.back().end = k + 1;
         open = usable && run.ticks[k] == 1;
     }
-    std::erase_if(pieces, [](const Stretch& piece) { return piece.rows() < 3; });
+    std::erase_if(pieces, [](const Stretch& piece) { return piece.rows() <= 2; });
     return pieces;
 }
 

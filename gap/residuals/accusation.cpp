@@ -12,8 +12,7 @@
 namespace fidservo::gap {
 namespace {
 
-/// What a reading displaces it displaces at rest, too: more than this share of the error along the motion. Of
-/// simulated false scales all of it is seen at rest, of late and skewed clocks a tenth at most.
+/// What a reading displaces it displaces at rest, too: more than this share of the error along the motion.
 constexpr double share_at_rest = 0.5;
 
 std::string_view carriage_block(std::optional<Dependence> dependence) {

@@ -11,7 +11,7 @@ namespace fidservo::gap {
 inline constexpr double share_of_gain = 0.5;
 
 /// Mean square, floors^2, above which a window counts as far off.
-inline constexpr double far_off_square = 9.0;
+inline constexpr double far_off_square = far_off_floors * far_off_floors;
 
 /// A trial in progress.
 struct Search::Contender {

@@ -53,7 +53,6 @@ bool leaves_a_gap(const Evidence& evidence, const CrossFit& fitted, const plant:
 }  // namespace
 
 bool exchange(Search& search, Chain& chain, bool changed) {
-    constexpr int most_exchanges = 4;
     int exchanges = 0;
     const auto tested = [&] { return changed ? chain.choices.size() : chain.choices.size() - 1; };
     std::size_t k = 0;
@@ -80,7 +79,7 @@ bool exchange(Search& search, Chain& chain, bool changed) {
             // The same effect again: its alternatives are now those beside the whole rest.
             if (has_leader(trials)) chain.choices[k] = choice_of(search, rest.fitted, std::move(trials));
             ++k;
-        } else if (replaces(search, trials.front(), chain, k) && exchanges++ < most_exchanges) {
+        } else if (replaces(search, trials.front(), chain, k) && exchanges++ < most_rounds) {
             start_over_with(grown(search, std::move(rest), std::move(trials)));
         } else {
             ++k;

@@ -43,8 +43,19 @@ struct Effort {
     const CrossFit* competitor = nullptr;
 };
 
-/// Share of a signal's excess that a wave removes once its place and period are nearly right.
-inline constexpr double in_its_valley = 0.999;
+/// Share of the effort of a search that the close fit of one effect gets; and what each of two searches gets
+/// of the time, or of the effort.
+inline constexpr double usual_share_of_effort = 0.25, half_of_it = 0.5;
+
+/// Shares of a signal's excess that count as all of it but for noise; and which a wave removes once its place
+/// and period are nearly right.
+inline constexpr double all_but_noise = 0.98, in_its_valley = 0.999;
+
+/// R.m.s. error, in floors, from which on a signal or a window is far off.
+inline constexpr double far_off_floors = 3.0;
+
+/// Repetitions of what may improve a result further.
+inline constexpr int most_rounds = 4;
 
 struct SearchOptions {
     std::size_t windows = 48;  ///< the largest number of windows of one signal and one half that are fitted
@@ -190,13 +201,13 @@ class Search {
     bool is_no_chance(const CrossFit& without, const CrossFit& with, double times = 1.0) const;
 
     /// Whether an effect removes at least `share` of some signal's excess over its floor.
-    bool nearly_clears(const CrossFit& without, const CrossFit& with, double share = 0.98) const;
+    bool nearly_clears(const CrossFit& without, const CrossFit& with, double share = all_but_noise) const;
 
     /// Signals that are off (above) their floors.
     SignalFlags off(const CrossFit& fitted) const;
 
     /// Signals whose r.m.s. error is more than this many floors.
-    SignalFlags far_off(const CrossFit& fitted, double floors = 3.0) const;
+    SignalFlags far_off(const CrossFit& fitted, double floors = far_off_floors) const;
 
     /// The signal that is the largest number of floors off its own; empty where all are at their floors.
     std::optional<Signal> furthest_off(const CrossFit& fitted) const;
@@ -298,7 +309,7 @@ class Search {
     /// that is not close by then may be a compromise of two.
     /// @param scatters  whether a wave or a spring is also fitted from many drawn values
     void fit_closer(const CrossFit& base, Contender& contender, bool scatters = true,
-                    double share_of_effort = 0.25) const;
+                    double share_of_effort = usual_share_of_effort) const;
     /// Fits also those leaders closely that come near the best, if that leaves a gap: after coarse fits only,
     /// the true cause may rank behind an effect that imitates it. Sorts the leaders by gain.
     void fit_rivals(const CrossFit& base, std::span<Contender> leaders) const;

@@ -65,12 +65,11 @@ bool Search::is_real(const CrossFit& without, const CrossFit& with) const {
 bool Search::clears_what_is_far_off(const CrossFit& without, const CrossFit& with) const {
     // For tags a small excess may remain, since a rolling shutter leaves some shapes off when the stage
     // shakes. Unlike the carriage's motion, shapes do not depend on stick-slip.
-    constexpr double next_to_nothing = 1e-3;
     const SignalExcess before = fitter_.excess(without.mean_squares),
                        after = fitter_.excess(with.mean_squares);
     for (std::size_t s = 0; s < signal_count; ++s) {
         const auto signal = static_cast<Signal>(s);
-        const double most_left = signal == Signal::tag ? next_to_nothing * before[s] : 0.0;
+        const double most_left = signal == Signal::tag ? least_share_of_first * before[s] : 0.0;
         if (before[s] > 0.0 && after[s] <= most_left && is_far_off(without, signal)) return true;
     }
     return false;

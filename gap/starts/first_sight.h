@@ -35,6 +35,9 @@ Surroundings surroundings(const Predict& predict, std::span<const Window> window
 plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>& shape,
                            const Eigen::VectorXd& shares);
 
+/// Start values from which a fit is begun.
+inline constexpr std::size_t most_starts = 4;
+
 struct Promise {
     Hypothesis start;  ///< the settings that may be refitted, then the candidate
     double gain;       ///< loss that it saves, without a fit, in the counted windows
