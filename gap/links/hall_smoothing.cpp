@@ -2,7 +2,6 @@
 #include "gap/links/hall_smoothing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -10,8 +9,6 @@ namespace fidservo::gap {
 
 namespace {
 
-constexpr std::array<std::size_t, 7> half_widths{2, 4, 8, 16, 32, 64, 128};
-constexpr double interval_stds = 1.0;
 /// Factor of the standard deviation by noise alone, for the deviations from a straight line that the rule
 /// admits.
 constexpr double bias_share = 1.25;
@@ -75,8 +72,7 @@ std::size_t width_at(const LineFits& fits, std::size_t at, std::size_t rows, dou
     for (std::size_t i = 0; i < half_widths.size(); ++i) {
         const Stretch fitted = stretch_around(at, half_widths[i], rows);
         const double fit = fits.line(at, fitted.first, fitted.end);
-        const double reach =
-            interval_stds * floor_lsb * std::sqrt(LineFits::variance(at, fitted.first, fitted.end));
+        const double reach = floor_lsb * std::sqrt(LineFits::variance(at, fitted.first, fitted.end));
         low = std::max(low, fit - reach);
         high = std::min(high, fit + reach);
         if (low > high) return i == 0 ? 0 : i - 1;

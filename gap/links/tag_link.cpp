@@ -172,7 +172,7 @@ void add_change(TagSighting& sighting, const CornerValues& slope, const Eigen::V
 /// Leaves out the rows next to a pause of the Hall readings: lines through the readings of one side only tell
 /// the platform's position less precisely than lines through both (gap/links/hall_smoothing.h).
 void leave_out_rims(const Recording& recording, const PlatformRun& platform, std::vector<bool>& usable) {
-    constexpr std::size_t rim_rows = 64;
+    constexpr std::size_t rim_rows = half_widths.back() / 2;
     constexpr double longest_ticks = 10.5;
     std::size_t last = 0;  // latest row with a reading
     for (std::size_t k = 1; k < usable.size(); ++k) {

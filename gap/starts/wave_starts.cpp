@@ -35,7 +35,7 @@ std::array<plant::EffectSetting, 2 * parameters_of_wave> neighbours(const plant:
         amplitude = std::min(amplitude * std::pow(steps.factor, sign),
                              setting.effect->parameters[wave.amplitude].high);
         around[2 + side].values[wave.phase] += sign * steps.phase_rad;
-        std::vector<double>& values = around[2 + 2 + side].values;
+        std::vector<double>& values = around[2 * 2 + side].values;
         const double from_mm = values[wave.period];
         values[wave.period] = 1.0 / (1.0 / from_mm + sign * steps.per_mm);
         values[wave.phase] = phase_in_step(values[wave.phase], from_mm, values[wave.period]);

@@ -14,6 +14,7 @@
 #include "tests/house/house_rules.h"
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace fidservo::house {
@@ -23,7 +24,10 @@ struct Constant {
     std::string name;   ///< of a member with that of its struct: Struct::member
     std::string value;  ///< as it is written, with single spaces
 
-    auto operator<=>(const Constant&) const = default;
+    bool operator==(const Constant& other) const = default;
+    bool operator<(const Constant& other) const {
+        return std::tie(file, name, value) < std::tie(other.file, other.name, other.value);
+    }
 };
 
 std::vector<Constant> constants_of(const SourceFile& file);
