@@ -153,7 +153,7 @@ void note_omissions(Evidence::Parts& parts, std::size_t run) {
 }
 
 void drop_unclear_detections(Evidence::Parts& parts, std::size_t run) {
-    constexpr double worth_telling = 0.05;  // share of all detections
+    constexpr double worth_telling = hardly_any;  // share of all detections
     Recording& recording = parts.recordings[run];
     const auto all = static_cast<double>(recording.detections.size());
     drop_unclear(recording, parts.links[run].path.velocity_mm_per_s, parts.rig,

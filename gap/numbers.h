@@ -15,15 +15,21 @@ inline constexpr double golden_section = std::numbers::phi - 1.0;
 /// hides, in steps squared.
 inline constexpr double uniform_divisor = 12.0;
 
-/// Two rows or frames follow each other if not more than so many periods lie between them.
-inline constexpr double most_periods_apart = 1.5;
+/// Two rows, frames or points of a grid follow each other if they are not more than so many steps apart.
+inline constexpr double most_steps_apart = 1.5;
 /// A longer pause is an interruption.
 inline constexpr double longest_pause_s = 0.1;
 /// Rows over which a velocity, a rate or an offset is found at a glance.
 inline constexpr std::size_t glance_rows = 20;
 
-/// The share of a gap, or of what another explanation gains, that counts as nearly all of it.
-inline constexpr double nearly_all = 0.9;
+/// What shares of a gap, of a gain or of anything else are called: nearly all of it, the larger part, a small
+/// part, hardly any, next to none.
+inline constexpr double nearly_all = 0.9, larger_part = 0.5, small_part = 0.1, hardly_any = 0.05,
+                        next_to_none = 1e-3;
+
+/// How many of the best of many are tried more closely: where each takes long, usually, and where it takes
+/// little.
+inline constexpr std::size_t narrow_beam = 3, beam = 4, wide_beam = 8;
 
 /// Standard deviations up to which a difference may be chance.
 inline constexpr double chance_stds = 3.0;

@@ -3,11 +3,12 @@
 // Effects of a carriage fitted to the balance of its forces.
 #include "gap/balance/force_balance.h"
 #include "gap/fit/fit.h"
+#include "gap/numbers.h"
 
 namespace fidservo::gap {
 
 /// How many of several waves, or forms of a model, are fitted.
-inline constexpr std::size_t most_fitted_forms = 4;
+inline constexpr std::size_t most_fitted_forms = beam;
 
 /// Fits effects' settings, in addition to a base hypothesis, to the balance of forces, with residuals
 /// over ForceBalance::deviations standard deviations under the settings themselves. Its arguments must

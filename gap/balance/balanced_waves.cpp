@@ -5,6 +5,7 @@
 #include "core/rig.h"
 #include "core/units.h"
 #include "gap/balance/balance_fit.h"
+#include "gap/numbers.h"
 #include "plant/effects/catalogue.h"
 #include "plant/stage_plant.h"
 
@@ -44,7 +45,7 @@ std::vector<plant::EffectSetting> balanced_waves(const Evidence& evidence, const
                                                  const Hypothesis& base, const Candidate& candidate,
                                                  std::span<const PositionPeriod> periods) {
     constexpr std::size_t most_waves = 2;
-    constexpr double most_of_harmonic = 0.5;  // of the wave; a stronger one is noise, as a rule
+    constexpr double most_of_harmonic = larger_part;  // of the wave; a stronger one is noise, as a rule
     if (!candidate.wave || !candidate.wave->is_force) return {};
     const ForceBalance balance(evidence, wanted, base);
     if (balance.supports() == 0) return {};

@@ -2,6 +2,7 @@
 #pragma once
 // Periods along the rail in the encoder's errors.
 #include "gap/evidence.h"
+#include "gap/numbers.h"
 
 #include <cstddef>
 #include <vector>
@@ -12,7 +13,7 @@ namespace fidservo::gap {
 inline constexpr double longest_period_mm = 50.0;
 
 /// The largest number of peaks of a search along the rail that are worth a look.
-inline constexpr std::size_t most_peaks = 4;
+inline constexpr std::size_t most_peaks = beam;
 
 /// A sin(2 pi y / p + phase) as a function of the position y on the rail.
 struct Wave {

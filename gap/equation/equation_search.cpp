@@ -9,6 +9,7 @@
 #include "gap/evidence/halves.h"
 #include "gap/fit/gap_size.h"
 #include "gap/fit/score.h"
+#include "gap/numbers.h"
 #include "gap/residuals/accusation.h"
 #include "gap/search/selection.h"
 #include "plant/effects/catalogue.h"
@@ -96,7 +97,8 @@ class EquationSearch {
     }
 
   private:
-    static constexpr std::size_t most_periods = 3, most_leading = 2, most_fitted = 8, most_tried = 3;
+    static constexpr std::size_t most_periods = 3, most_leading = 2, most_fitted = wide_beam,
+                                 most_tried = narrow_beam;
     static constexpr double working_out_s = 2.0;
 
     std::vector<Term> terms(Port port) {

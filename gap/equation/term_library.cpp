@@ -37,7 +37,7 @@ std::string KnownVariable::clipped() const {
 }
 
 double KnownVariable::origin() const {
-    constexpr double hardly = 0.1;
+    constexpr double hardly = small_part;
     const bool has_both_signs = std::min(-range.low, range.high) > hardly * range.half();
     return has_both_signs ? 0.0 : step() * std::round(range.middle() / step());
 }

@@ -83,7 +83,7 @@ void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_
         const auto [before, is_first] = last.try_emplace(now.tag_id, k);
         const std::size_t at = std::exchange(before->second, k);
         const double since_s = seconds(now.time_ns - detections[at].time_ns);
-        if (is_first || since_s <= 0.0 || since_s > most_periods_apart / camera.frame_rate_hz) continue;
+        if (is_first || since_s <= 0.0 || since_s > most_steps_apart / camera.frame_rate_hz) continue;
         const double way_px = (now.corners_px[0] - detections[at].corners_px[0]).norm();
         const double by_frames = exposure_s / since_s * way_px / cell_px(now);
         smear_cells[k] = std::max(smear_cells[k], by_frames);

@@ -114,7 +114,7 @@ std::optional<double> corner_noise_px(const std::vector<Recording>& recordings, 
             if (refines && !now.is_refined.value_or(true)) continue;
             const TagDetection* before = std::exchange(seen[now.tag_id], &now);
             if (before == nullptr || now.time_ns <= before->time_ns ||
-                seconds(now.time_ns - before->time_ns) > most_periods_apart * frame_s)
+                seconds(now.time_ns - before->time_ns) > most_steps_apart * frame_s)
                 continue;
             for (std::size_t c = 0; c < corner_count; ++c)
                 sizes.push_back(std::abs(now.corners_px[c].y() - before->corners_px[c].y()));

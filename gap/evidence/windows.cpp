@@ -25,7 +25,7 @@ std::vector<Stretch> stretches(const Recording& recording, const std::vector<boo
     bool open = false;
     for (std::size_t k = 0; k < usable.size(); ++k) {
         const bool follows = open && seconds(recording.rows[k].time_ns - recording.rows[k - 1].time_ns) <
-                                         most_periods_apart * recording.tick_s;
+                                         most_steps_apart * recording.tick_s;
         if (usable[k] && !follows) found.push_back({k, k});
         if (usable[k]) found.back().end = k + 1;
         open = usable[k];

@@ -68,7 +68,7 @@ double square_of(const CondensedWindow& window) {
 /// the prediction moves, or moved where the prediction stands. Any column makes them a little less wrong; no
 /// linear model explains them.
 void drop_gross_windows(std::vector<CondensedWindow>& windows) {
-    constexpr double wrong = 2.0, ratio = 100.0;
+    constexpr double wrong = off_square, ratio = 100.0;
     std::vector<double> squares;
     for (const CondensedWindow& window : windows)
         if (square_of(window) > wrong) squares.push_back(square_of(window));

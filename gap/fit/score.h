@@ -17,6 +17,9 @@
 
 namespace fidservo::gap {
 
+/// Mean square, in floors squared, from which on a window is off.
+inline constexpr double off_square = 2.0;
+
 /// Neighbouring windows whose errors are correlated through slow states.
 inline constexpr std::size_t windows_in_correlation = 3;
 

@@ -32,7 +32,7 @@ Moment moment_at(const std::vector<double>& time_s, double tick_s, double at_s) 
     if (time_s[row] > at_s || time_s[row + 1] <= at_s)
         row = static_cast<std::size_t>(std::ranges::upper_bound(time_s, at_s) - time_s.begin()) - 1;
     const double way_s = time_s[row + 1] - time_s[row];
-    return {row, (at_s - time_s[row]) / way_s, way_s < most_periods_apart * tick_s};
+    return {row, (at_s - time_s[row]) / way_s, way_s < most_steps_apart * tick_s};
 }
 
 std::size_t nearest_row(const std::vector<double>& time_s, double tick_s, double at_s) {

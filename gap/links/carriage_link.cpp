@@ -70,8 +70,7 @@ plant::MacroAxisState first_state(const CarriageModel& model, const CarriageRun&
     const std::size_t glance = std::min(glance_rows, lead_rows(run.tick_s));
     auto state = plant::start(model.axis, position_mm(model.encoder, run.reading_count[row]));
     const double way_mm = position_mm(model.encoder, run.reading_count[row + glance]) - state.position_mm;
-    constexpr double more_than_a_count = 1.5;
-    if (std::abs(way_mm) > more_than_a_count * model.encoder.resolution_mm)
+    if (std::abs(way_mm) > most_steps_apart * model.encoder.resolution_mm)
         state.velocity_mm_per_s = way_mm / (static_cast<double>(glance) * run.tick_s);
     state.mechanism = remembered(run.way, model.axis, model.encoder.resolution_mm, row);
     state.mechanism.driven_mm_per_s = state.velocity_mm_per_s;

@@ -61,14 +61,14 @@ Eigen::Vector2d middle_px(const TagDetection& tag) {
 
 /// Empty where the two frames before or after do not show the tag, or its motion is not even enough.
 std::optional<ImageMotion> motion_at(const TagTrack& track, TimeNs time_ns, double frame_s) {
-    constexpr double place_noise_px = 0.05, least_uncertain_share = 0.02, most_uncertain_share = 0.05,
-                     most_jump_share = 0.1, noise_of_jump = 4.0;
+    constexpr double place_noise_px = 0.05, least_uncertain_share = 0.02, most_uncertain_share = hardly_any,
+                     most_jump_share = small_part, noise_of_jump = 4.0;
     const auto found = std::ranges::lower_bound(track, time_ns, {}, &TagDetection::time_ns);
     if (found == track.end() || (*found)->time_ns != time_ns || found - track.begin() < 2 ||
         track.end() - found <= 2)
         return std::nullopt;
     for (auto next = found - 1; next <= found + 2; ++next)
-        if (seconds((*next)->time_ns - (*(next - 1))->time_ns) > most_periods_apart * frame_s)
+        if (seconds((*next)->time_ns - (*(next - 1))->time_ns) > most_steps_apart * frame_s)
             return std::nullopt;
     const auto slope = [&](std::ptrdiff_t frames) -> Eigen::Vector2d {
         const TagDetection& before = **(found - frames);

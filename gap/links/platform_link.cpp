@@ -201,7 +201,7 @@ int ticks_between(TimeNs from_ns, TimeNs to_ns, double tick_s) {
 void leave_out_unknown_wire(const Recording& recording, const HeaterParameters& heater,
                             std::vector<bool>& usable) {
     constexpr double cold_taus = 5.0, shortest_pause_s = 0.01;
-    const double longest_under_way_s = std::max(shortest_pause_s, most_periods_apart * recording.tick_s);
+    const double longest_under_way_s = std::max(shortest_pause_s, most_steps_apart * recording.tick_s);
     bool is_known = true;
     // Time of the latest row with a command.
     TimeNs last_ns = recording.rows.empty() ? 0 : recording.rows.front().time_ns;

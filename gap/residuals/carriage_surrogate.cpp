@@ -4,6 +4,7 @@
 #include "gap/balance/carriage_forces.h"
 #include "gap/balance/hat_functions.h"
 #include "gap/balance/wave_of_force.h"
+#include "gap/numbers.h"
 #include "gap/residuals/surrogate.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace fidservo::gap {
 namespace {
 
 /// Of the squares of what is lacking, from which on a period is one.
-constexpr double least_share_of_wave = 0.05;
+constexpr double least_share_of_wave = hardly_any;
 
 /// By how much commands may be late.
 constexpr std::array<std::size_t, 2> late_ticks{2, 8};

@@ -15,7 +15,7 @@ namespace {
 /// What a readout of 1 s does to the turned values; empty where no near frame before and after shows the tag.
 std::optional<CornerValues> shear(const TagSighting& before, const TagSighting& tag, const TagSighting& after,
                                   const CameraParameters& camera) {
-    constexpr double late = 1.0 + most_periods_apart;
+    constexpr double late = 1.0 + most_steps_apart;
     const double way_s = after.stamp_s - before.stamp_s;
     if (!(way_s > 0.0) || way_s > late / camera.frame_rate_hz) return std::nullopt;
     const CornerValues way_px = after.corners_px - before.corners_px;

@@ -22,7 +22,7 @@ struct Approach {
     /// Whether at least half of these windows are predicted nearly to their floors.
     bool is_near() const { return median_square < near_square; }
     /// The mean square below which a window is near its floor.
-    static constexpr double near_square = 2.0;
+    static constexpr double near_square = off_square;
 };
 
 /// Fits in several steps, until nothing improves; none from a start that is near. A scale error of the

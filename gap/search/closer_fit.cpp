@@ -34,7 +34,7 @@ bool moves_tags(const Candidate& candidate) {
 
 /// Shares of a signal's excess that have to be removed before a close fit, and more costly methods, are
 /// tried.
-constexpr double worth_it = 0.1, worth_more = 0.5;
+constexpr double worth_it = small_part, worth_more = larger_part;
 
 }  // namespace
 

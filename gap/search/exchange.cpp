@@ -2,6 +2,7 @@
 #include "gap/search/exchange.h"
 
 #include "gap/fit/gap_size.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <optional>
@@ -89,7 +90,7 @@ bool exchange(Search& search, Chain& chain, bool changed) {
 }
 
 Chain without_needless(const Search& search, const Evidence& evidence, Chain chain) {
-    constexpr std::size_t most_tested = 3;
+    constexpr std::size_t most_tested = narrow_beam;
     while (chain.choices.size() > 1) {
         const Hypothesis& settings = chain.fitted.of_half[0];
         std::vector<std::pair<double, std::size_t>> order;  // by the loss without them

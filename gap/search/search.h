@@ -5,6 +5,7 @@
 #include "gap/candidates/candidate.h"
 #include "gap/fit/cross_fit.h"
 #include "gap/fit/gap_size.h"
+#include "gap/numbers.h"
 #include "gap/search/everything.h"
 #include "gap/search/search_memory.h"
 
@@ -34,7 +35,7 @@ struct Trial {
 
 /// How many of the most promising candidates a step fits, and how many of these on both halves.
 struct Effort {
-    std::size_t fits = 8, leaders = 4;
+    std::size_t fits = wide_beam, leaders = beam;
     /// Whether the best wave or spring is also fitted from many drawn values if it leaves a gap.
     bool scatters = true;
     bool refines = true;  ///< whether the leaders' first, coarse fits are followed by close ones
@@ -49,7 +50,7 @@ inline constexpr double usual_share_of_effort = 0.25, half_of_it = 0.5;
 
 /// Shares of a signal's excess that count as all of it but for noise; and which a wave removes once its place
 /// and period are nearly right.
-inline constexpr double all_but_noise = 0.98, in_its_valley = 0.999;
+inline constexpr double all_but_noise = 0.98, in_its_valley = 1.0 - next_to_none;
 
 /// R.m.s. error, in floors, from which on a signal or a window is far off.
 inline constexpr double far_off_floors = 3.0;

@@ -4,6 +4,7 @@
 #include "core/rig.h"
 #include "gap/fit/polish.h"
 #include "gap/fit/score.h"
+#include "gap/numbers.h"
 #include "gap/search/contender.h"
 #include "gap/search/search.h"
 
@@ -228,7 +229,7 @@ Search::Contender Search::refined(const CrossFit& base, const Contender& contend
     // the best attempt, and only that is continued.
     const bool shows_in_hall = contender.teachers()[index_of(Signal::hall)];
     constexpr int iterations_in_hall = 10, iterations_elsewhere = 4;
-    constexpr std::size_t most_continued = 3;
+    constexpr std::size_t most_continued = narrow_beam;
     const int first_iterations = shows_in_hall ? iterations_in_hall : iterations_elsewhere;
     const std::size_t most_fitted_on = shows_in_hall ? 1 : most_continued;
     struct Attempt {

@@ -30,14 +30,14 @@ bool explains(const Search& search, const CrossFit& without, const CrossFit& wit
 /// tried as the first of a pair, too.
 /// @return whether the chain was changed
 bool begin_otherwise(Search& search, Chain& chain, std::size_t most_effects) {
-    constexpr Effort effort{.fits = 3, .leaders = 1};
+    constexpr Effort effort{.fits = narrow_beam, .leaders = 1};
     const SignalFlags off = search.off(chain.fitted);
     if (off == SignalFlags{}) return false;
     const Chain rest = rest_of(search, chain, off);
     if (!has_room_for_two(rest, most_effects)) return false;
     const bool from_nothing = chain.choices.size() == rest.choices.size();
     bool changed = false;
-    constexpr std::size_t most_from_nothing = 6, most_otherwise = 3;
+    constexpr std::size_t most_from_nothing = 6, most_otherwise = narrow_beam;
     const std::size_t most_first = from_nothing ? most_from_nothing : most_otherwise;
     std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates(), {.scatters = false});
     if (!from_nothing && has_leader(singles)) {

@@ -14,6 +14,7 @@
 // for what is left out.
 #include "gap/candidates/candidate.h"
 #include "gap/fit/fit.h"
+#include "gap/numbers.h"
 
 #include <array>
 #include <cstddef>
@@ -27,7 +28,7 @@ namespace fidservo::gap {
 inline constexpr double least_worth = 4.0;
 
 /// A change of the loss that makes no difference beside the least worth.
-inline constexpr double hardly_worth = 0.01 * least_worth;
+inline constexpr double hardly_worth = least_worth / percent;
 
 /// The loss that a candidate has to save. A discrepancy is shared by the windows of a recording, which then
 /// count as fewer independent ones (gap/fit/predictive_density.h); the demand is larger by that factor.

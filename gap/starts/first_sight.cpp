@@ -85,7 +85,7 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
     constexpr double probe = 0.25;  // share of the typical size with which responses are computed
     constexpr double hopeless_gain = 0.4 * least_gain;
     constexpr double shorter = 0.4, further = 2.5, furthest = 100.0;
-    constexpr std::size_t most_places = 8;
+    constexpr std::size_t most_places = wide_beam;
     const auto width = static_cast<Eigen::Index>(candidate.sizes.size());
     const auto moving = beside.linear.size();
     const Eigen::VectorXd unmoved = Eigen::VectorXd::Zero(moving);

@@ -5,6 +5,7 @@
 #include "gap/candidates/coupling.h"
 #include "gap/candidates/scaled_parameters.h"
 #include "gap/fit/fit.h"
+#include "gap/numbers.h"
 #include "gap/starts/linear_errors.h"
 
 #include <vector>
@@ -36,7 +37,7 @@ plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>
                            const Eigen::VectorXd& shares);
 
 /// Start values from which a fit is begun.
-inline constexpr std::size_t most_starts = 4;
+inline constexpr std::size_t most_starts = beam;
 
 struct Promise {
     Hypothesis start;  ///< the settings that may be refitted, then the candidate

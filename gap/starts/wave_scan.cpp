@@ -55,11 +55,10 @@ std::vector<Scanned> neighbours_of(const Scanned& wave) {
 
 /// The best of some sorted waves, none of which has a period next to a better one's.
 std::vector<Scanned> best_valleys(std::span<const Scanned> sorted, std::size_t most) {
-    constexpr double apart = 1.5;
     std::vector<Scanned> best;
     for (const Scanned& wave : sorted) {
         const bool is_beside_another = std::ranges::any_of(best, [&](const Scanned& other) {
-            return std::abs(other.per_mm - wave.per_mm) < apart * step_per_mm;
+            return std::abs(other.per_mm - wave.per_mm) < most_steps_apart * step_per_mm;
         });
         if (!is_beside_another) best.push_back(wave);
         if (best.size() == most) break;

@@ -4,6 +4,7 @@
 #include "gap/balance/balanced_waves.h"
 #include "gap/candidates/wave.h"
 #include "gap/fit/score.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <array>
@@ -49,7 +50,7 @@ std::vector<Promise> waves_at_first_sight(const Predict& predict, std::span<cons
                                           const Wanted& counted, const Surroundings& beside,
                                           const Candidate& candidate, std::span<const PositionPeriod> periods,
                                           std::span<const plant::EffectSetting> balanced) {
-    constexpr std::size_t most_climbed = 3;
+    constexpr std::size_t most_climbed = narrow_beam;
     constexpr int rounds = 4;
     const std::vector<double> base_squares = mean_squares(windows, beside.errors);
     const auto promise = [&](plant::EffectSetting setting) {

@@ -108,8 +108,8 @@ bool shows_in_view(const plant::Effect& effect) {
 }
 
 Features features_of(const Support& support) {
-    constexpr double most_logit = 7.0, least_share = 1e-4, least_apart = 1e-3, least_floors_off = 0.15,
-                     most_floors_off = 3.0;
+    constexpr double most_logit = 7.0, least_share = 1e-4, least_apart = next_to_none,
+                     least_floors_off = 0.15, most_floors_off = 3.0;
     const auto log_discrepancy = [&](double floors) {
         const double discrepancy = std::sqrt(std::max(0.0, std::pow(floors, 2) - 1.0));
         return -std::log(std::clamp(discrepancy, least_floors_off, most_floors_off));

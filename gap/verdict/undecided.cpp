@@ -207,7 +207,7 @@ std::vector<std::string> undecided(const Evidence& evidence, std::span<const Can
 }
 
 std::string what_is_wanting(const Evidence& evidence, const Selection& selection) {
-    constexpr double least_removed = 0.5;
+    constexpr double least_removed = larger_part;
     constexpr std::ptrdiff_t few_windows = 20;
     const CrossFit& nothing = selection.steps.front();
     const std::vector<SignalGap> gaps = signal_gaps(evidence, nothing.mean_squares, nothing.mean_squares);

@@ -38,7 +38,7 @@ bool are_at_once(const Window& encoder, const Window& tags) {
 }  // namespace
 
 std::vector<bool> unpredictable_windows(const Evidence& evidence, const CrossFit& fitted) {
-    constexpr double least_spread = 2.0, as_large = 4.0;
+    constexpr double least_spread = off_square, as_large = 4.0;
     const std::vector<Window>& windows = evidence.windows();
     const std::vector<std::uint8_t> half = halves(evidence);
     std::vector<bool> found(windows.size(), false);
