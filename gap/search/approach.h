@@ -7,6 +7,7 @@
 // falls with the median from one fit to the next.
 #include "gap/candidates/candidate.h"
 #include "gap/fit/fit.h"
+#include "gap/fit/score.h"
 
 #include <span>
 
