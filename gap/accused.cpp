@@ -13,8 +13,9 @@ void accuse(std::vector<BlockProbability>& where, const std::string& block, doub
         known->probability = 1.0 - (1.0 - known->probability) * (1.0 - probability);
     else
         where.push_back({block, probability});
+    constexpr double steps = 20.0;  // of probability; within one the order stays
     std::ranges::stable_sort(where, std::greater{}, [](const BlockProbability& accused) {
-        return std::lround(20.0 * accused.probability);
+        return std::lround(steps * accused.probability);
     });
 }
 

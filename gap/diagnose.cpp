@@ -135,7 +135,9 @@ std::vector<BlockProbability> blocks_of(const Selection& selection, const std::v
         const double all = weight_of_name > 0.0 ? found[c].probability / weight_of_name : 0.0;
         for (const auto& [block, weight] : here) accuse(where, block, std::min(1.0, all * weight));
     }
-    std::erase_if(where, [](const BlockProbability& block) { return block.probability <= 1e-4; });
+    constexpr double least_probability = 1e-4;
+    std::erase_if(where,
+                  [](const BlockProbability& block) { return block.probability <= least_probability; });
     return where;
 }
 

@@ -62,11 +62,15 @@ std::string_view unit_of(Signal signal);  ///< in the order of Signal: count, ad
 /// The effects that a rig is claimed to have beyond its file, with their parameters.
 using Hypothesis = std::vector<plant::EffectSetting>;
 
-/// Number of values of a detection: u and v of the tag's four corners.
-inline constexpr std::size_t corner_values = 8;
+/// Corners of a tag.
+inline constexpr int corner_count = 4;
+/// Each corner's share of a tag's middle.
+inline constexpr double corner_share = 1.0 / corner_count;
+/// Number of values of a detection: u and v of the tag's corners.
+inline constexpr std::size_t corner_values = 2 * corner_count;
 
 /// Number of values that describe a tag's appearance in a frame (gap/links/image_link.h).
-inline constexpr std::size_t image_values = 10;
+inline constexpr std::size_t image_values = 2 * corner_count + 2;
 
 /// A stretch of one recording over which one signal is predicted from the state at its start.
 struct Window {

@@ -8,6 +8,7 @@
 #include "gap/evidence/plate_tag.h"
 #include "gap/links/wire_memory.h"
 #include "gap/links/wire_start.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -110,7 +111,7 @@ void note_late_ticks(Evidence::Parts& parts, std::size_t run) {
          fmt::format(
              "the loop left out {:.0f} % of its ticks; where that was more than two at a time, nothing "
              "is judged",
-             100.0 * share)});
+             percent * share)});
 }
 
 void note_omissions(Evidence::Parts& parts, std::size_t run) {
@@ -152,7 +153,7 @@ void note_omissions(Evidence::Parts& parts, std::size_t run) {
 }
 
 void drop_unclear_detections(Evidence::Parts& parts, std::size_t run) {
-    constexpr double worth_telling = 0.05;  // share of all detections
+    constexpr double worth_telling = hardly_any;  // share of all detections
     Recording& recording = parts.recordings[run];
     const auto all = static_cast<double>(recording.detections.size());
     drop_unclear(recording, parts.links[run].path.velocity_mm_per_s, parts.rig,

@@ -5,6 +5,7 @@
 #include "gap/accused.h"
 #include "gap/equation/equation.h"
 #include "gap/fit/gap_size.h"
+#include "gap/numbers.h"
 #include "gap/parameters.h"
 #include "gap/residuals/remainder.h"
 #include "gap/verdict/model_weights.h"
@@ -123,7 +124,6 @@ void take_values(const ProposedEquation& beside, Diagnosis& diagnosis) {
 
 /// An equation that removes nearly all of what is left says best where that arises, and on what it depends.
 void believe_equation(Diagnosis& diagnosis) {
-    constexpr double nearly_all = 0.9;
     Remainder& left = *diagnosis.unexplained;
     const Equation& equation = *left.equation;
     if (equation.gap_removed < nearly_all) return;

@@ -3,8 +3,12 @@
 // Effects of a carriage fitted to the balance of its forces.
 #include "gap/balance/force_balance.h"
 #include "gap/fit/fit.h"
+#include "gap/numbers.h"
 
 namespace fidservo::gap {
+
+/// How many of several waves, or forms of a model, are fitted.
+inline constexpr std::size_t most_fitted_forms = beam;
 
 /// Fits settings of effects, in addition to a base hypothesis, to the balance of forces. A residual is a
 /// support's excess force (gap/balance/force_balance.h) in units of ForceBalance::deviations standard

@@ -3,7 +3,9 @@
 
 #include "core/parallel.h"
 #include "core/rig.h"
+#include "core/units.h"
 #include "gap/balance/balance_fit.h"
+#include "gap/numbers.h"
 #include "plant/effects/catalogue.h"
 #include "plant/stage_plant.h"
 
@@ -16,7 +18,6 @@
 namespace fidservo::gap {
 
 plant::EffectSetting wave_at(const Candidate& candidate, const PositionPeriod& period) {
-    constexpr double um_per_mm = 1e3;
     std::vector<double> values = candidate.shapes.front();
     const plant::EffectParameter& amplitude = candidate.effect->parameters[candidate.wave->amplitude];
     const bool is_force = candidate.wave->is_force;
@@ -43,13 +44,13 @@ std::vector<PositionPeriod> on_the_rail(std::vector<PositionPeriod> periods, con
 std::vector<plant::EffectSetting> balanced_waves(const Evidence& evidence, const Wanted& wanted,
                                                  const Hypothesis& base, const Candidate& candidate,
                                                  std::span<const PositionPeriod> periods) {
-    constexpr std::size_t most_fitted = 4, most_waves = 2;
-    constexpr double most_of_harmonic = 0.5;  // of the wave; a stronger one is noise, as a rule
+    constexpr std::size_t most_waves = 2;
+    constexpr double most_of_harmonic = larger_part;  // of the wave; a stronger one is noise, as a rule
     if (!candidate.wave || !candidate.wave->is_force) return {};
     const ForceBalance balance(evidence, wanted, base);
     if (balance.supports() == 0) return {};
     const BalanceFit balanced(balance, wanted, base);
-    std::vector<Fit> fits(std::min(most_fitted, periods.size()));
+    std::vector<Fit> fits(std::min(most_fitted_forms, periods.size()));
     parallel_for(fits.size(),
                  [&](std::size_t k) { fits[k] = balanced.fit({wave_at(candidate, periods[k])}); });
     std::ranges::sort(fits, {}, &Fit::loss);

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t half_smoothing = 8;  ///< rows
 constexpr double sliding_mm_per_s = 2.0;   ///< three standard deviations of the smoothed velocity
 
-/// phi = c (1 - s^2)^4, s = t / h, of integral 1.
+/// Mathematics: phi = c (1 - s^2)^4, s = t / h, of integral 1.
 double modulating(double s, double h_s) {
     return 315.0 / (256.0 * h_s) * std::pow(std::max(0.0, 1.0 - s * s), 4);
 }

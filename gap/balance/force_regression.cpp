@@ -30,6 +30,9 @@ constexpr double small_share = 0.1;
 
 constexpr std::size_t most_balanced = 6;
 
+/// Share of a column's own square, against columns that are nearly collinear.
+constexpr double column_ridge = 1e-6;
+
 /// The longer supports see weaker forces.
 constexpr std::size_t balanced_half_support = long_half_support;
 
@@ -168,13 +171,12 @@ class Columns {
         const Eigen::MatrixXd shared = basis.transpose() * weighted;
         std::vector<double> taken(groups.size(), 0.0);
         parallel_for(groups.size(), [&](std::size_t g) {
-            constexpr double ridge = 1e-6;
             const ForceGroup& group = groups[g];
             const auto own = weighted.middleCols(group.first, group.columns());
             const auto known = shared.middleCols(group.first, group.columns());
             const Eigen::MatrixXd whole = own.transpose() * own;
             Eigen::MatrixXd normal = whole - known.transpose() * known;
-            normal.diagonal() += ridge * whole.diagonal();
+            normal.diagonal() += column_ridge * whole.diagonal();
             if (normal.diagonal().minCoeff() <= 0.0) return;
             const Eigen::VectorXd right = own.transpose() * rest;
             taken[g] = right.dot(normal.ldlt().solve(right));
@@ -184,14 +186,13 @@ class Columns {
 
     /// Multiples of some columns that leave least of the supports of one half, or of all.
     Eigen::VectorXd solve(std::span<const Eigen::Index> in, std::optional<std::uint8_t> half) const {
-        constexpr double ridge = 1e-6;
         Eigen::VectorXd weights = weights_;
         for (Eigen::Index i = 0; half && i < weights.size(); ++i)
             if (half_of_[static_cast<std::size_t>(i)] != *half) weights(i) = 0.0;
         const Eigen::MatrixXd chosen = weights.asDiagonal() * values_(Eigen::all, in);
         Eigen::MatrixXd normal = chosen.transpose() * chosen;
         for (Eigen::Index k = 0; k < normal.rows(); ++k)
-            normal(k, k) += ridge * normal(k, k) + std::numeric_limits<double>::min();
+            normal(k, k) += column_ridge * normal(k, k) + std::numeric_limits<double>::min();
         return normal.ldlt().solve(chosen.transpose() * (weights.asDiagonal() * excess_));
     }
 

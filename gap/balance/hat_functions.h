@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Piecewise linear basis functions over knots: each is 1 at its knot and 0 at all others.
+#include "gap/numbers.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -15,7 +17,7 @@ inline std::vector<double> knots_by_share(std::vector<float> values, std::size_t
     std::ranges::sort(values);
     for (std::size_t k = 0; k < count; ++k) {
         const double knot = values[k * (values.size() - 1) / (count - 1)];
-        if (knots.empty() || knot > knots.back() + 1e-9) knots.push_back(knot);
+        if (knots.empty() || knot > knots.back() + next_to_nothing) knots.push_back(knot);
     }
     return knots;
 }

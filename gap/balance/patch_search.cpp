@@ -2,6 +2,7 @@
 #include "gap/balance/patch_search.h"
 
 #include "gap/balance/carriage_forces.h"
+#include "gap/balance/period_search.h"
 #include "gap/balance/rail_stretch.h"
 
 #include <algorithm>
@@ -66,7 +67,6 @@ class PatchFit {
 
 /// The strongest, none within two widths of a stronger one.
 std::vector<FrictionPatch> apart(std::vector<FrictionPatch> all) {
-    constexpr std::size_t most = 4;
     std::ranges::sort(all, std::greater{}, &FrictionPatch::share);
     std::vector<FrictionPatch> chosen;
     for (const FrictionPatch& patch : all) {
@@ -74,7 +74,7 @@ std::vector<FrictionPatch> apart(std::vector<FrictionPatch> all) {
             return std::abs(patch.centre_mm - other.centre_mm) <
                    2.0 * std::max(patch.width_mm, other.width_mm);
         });
-        if (patch.share > 0.0 && !is_beside && chosen.size() < most) chosen.push_back(patch);
+        if (patch.share > 0.0 && !is_beside && chosen.size() < most_peaks) chosen.push_back(patch);
     }
     return chosen;
 }

@@ -118,7 +118,7 @@ class Periodogram {
         Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
         Eigen::Vector4d right = Eigen::Vector4d::Zero();
         for (const Lacking& window : windows_) {
-            Eigen::Matrix<double, Eigen::Dynamic, 4> columns(std::ssize(window.first), 4);
+            Eigen::Matrix<double, Eigen::Dynamic, 4> columns(std::ssize(window.first), matrix.cols());
             for (std::size_t k = 0; k < window.first.size(); ++k)
                 columns.row(static_cast<Eigen::Index>(k)) =
                     waves_.over(window.first[k], reading_weights_, force_weights_);
@@ -133,7 +133,8 @@ class Periodogram {
     /// The highest place within a step to each side, by thirds.
     PositionPeriod climbed(PositionPeriod from, double step_per_mm) {
         constexpr int rounds = 12;
-        for (int round = 0; round < rounds; ++round, step_per_mm *= 2.0 / 3.0)
+        constexpr double narrower = 2.0 / 3.0;
+        for (int round = 0; round < rounds; ++round, step_per_mm *= narrower)
             for (const double side : {-0.5, 0.5}) {
                 const PositionPeriod there = at(1.0 / from.period_mm + side * step_per_mm);
                 if (there.share <= from.share) continue;
@@ -158,14 +159,14 @@ class Periodogram {
 
 /// The highest of a periodogram, none beside a higher one.
 std::vector<PositionPeriod> peaks(std::span<const PositionPeriod> all) {
-    constexpr std::size_t most = 4, apart = 3;
+    constexpr std::size_t apart = 3;
     std::vector<std::size_t> order(all.size()), chosen;
     std::iota(order.begin(), order.end(), 0);
     std::ranges::sort(order, std::greater{}, [&](std::size_t k) { return all[k].share; });
     for (const std::size_t k : order) {
         const bool is_beside = std::ranges::any_of(
             chosen, [&](std::size_t other) { return k < other + apart && other < k + apart; });
-        if (!is_beside && chosen.size() < most) chosen.push_back(k);
+        if (!is_beside && chosen.size() < most_peaks) chosen.push_back(k);
     }
     std::vector<PositionPeriod> found;
     found.reserve(chosen.size());

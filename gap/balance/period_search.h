@@ -2,6 +2,7 @@
 #pragma once
 // Periods along the rail in the encoder's errors.
 #include "gap/evidence.h"
+#include "gap/numbers.h"
 
 #include <cstddef>
 #include <vector>
@@ -10,6 +11,9 @@ namespace fidservo::gap {
 
 /// The longest period of the waves that are looked for along the rail.
 inline constexpr double longest_period_mm = 50.0;
+
+/// The largest number of peaks of a search along the rail that are worth a look.
+inline constexpr std::size_t most_peaks = beam;
 
 /// A sin(2 pi y / p + phase) as a function of the position y on the rail.
 struct Wave {

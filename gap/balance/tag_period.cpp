@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/balance/tag_period.h"
 
+#include "gap/balance/period_search.h"
 #include "gap/links/tag_sight.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,13 +31,14 @@ std::vector<double> positions_mm(const Evidence& evidence, WaveOf wave) {
 }  // namespace
 
 double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors, WaveOf wave) {
-    constexpr double shortest_mm = 1.0, longest_mm = 50.0;
+    constexpr double shortest_mm = 1.0, turns_apart = 0.25;
     const std::vector<double> places = positions_mm(evidence, wave);
     if (places.empty()) return 0.0;
     const auto [low, high] = std::ranges::minmax(places);
-    const double step_per_mm = 0.25 / std::max(longest_mm, high - low);
+    const double step_per_mm = turns_apart / std::max(longest_period_mm, high - low);
     const auto taken = [&](double per_mm) {
-        Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;  // of sine, cosine, a constant
+        // Of sine, cosine and a constant.
+        Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * next_to_nothing;
         Eigen::Vector3d right = Eigen::Vector3d::Zero();
         std::size_t at = 0;
         for (const Window& window : evidence.windows()) {
@@ -48,7 +51,7 @@ double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors, W
                 own += row * row.transpose();
             }
             const double count = own(2, 2);
-            if (count < 3.0) continue;
+            if (count <= 2.0) continue;
             const Eigen::Vector4d sum = own.col(2);
             if (wave == WaveOf::carriage) own -= sum * sum.transpose() / count;
             const double weight = 1.0 / (count + own(3, 3));
@@ -64,7 +67,8 @@ double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors, W
         most = here;
         best_per_mm = per_mm;
     };
-    for (double per_mm = 1.0 / longest_mm; per_mm <= 1.0 / shortest_mm; per_mm += step_per_mm) try_at(per_mm);
+    for (double per_mm = 1.0 / longest_period_mm; per_mm <= 1.0 / shortest_mm; per_mm += step_per_mm)
+        try_at(per_mm);
     if (best_per_mm == 0.0) return 0.0;
     constexpr int halvings = 6;
     double step = 0.5 * step_per_mm;

@@ -182,8 +182,9 @@ std::vector<Candidate> candidates(const Evidence& evidence, std::span<const std:
     };
     const TravelledRange range = travelled(evidence);
     const double farthest_mm = std::max(std::abs(range.low_mm), std::abs(range.high_mm));
+    constexpr double probed_count = 0.25;
     const double quarter_count =
-        0.25 * evidence.rig().macro.encoder_resolution_mm / std::max(1.0, farthest_mm);
+        probed_count * evidence.rig().macro.encoder_resolution_mm / std::max(1.0, farthest_mm);
     std::vector<Candidate> found;
     const auto listed = plant::effect_catalogue();
     std::vector<const plant::Effect*> known(listed.begin(), listed.end());

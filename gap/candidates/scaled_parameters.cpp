@@ -12,11 +12,11 @@ namespace fidservo::gap {
 namespace {
 
 double scale_of(const plant::EffectSetting& setting, std::size_t which) {
-    constexpr double share_of_value = 0.2, share_of_range = 0.05, reach_mm = 100.0;
+    constexpr double share_of_value = 0.2, share_of_range = 0.05;
     const plant::EffectParameter& parameter = setting.effect->parameters[which];
     if (const auto wave = wave_of(*setting.effect); wave && wave->period == which) {
         const double period_mm = std::max(setting.values[which], parameter.low);
-        return period_mm * period_mm / (2.0 * std::numbers::pi * reach_mm);
+        return period_mm * period_mm / (2.0 * std::numbers::pi * rail_middle_mm);
     }
     if (parameter.is_size()) return std::abs(parameter.usual() - parameter.vanishing);
     if (parameter.role == plant::Role::phase || parameter.typical == 0.0 || parameter.low < 0.0)

@@ -14,9 +14,8 @@ std::optional<WaveParameters> wave_of(const plant::Effect& effect) {
 }
 
 double phase_in_step(double phase_rad, double from_period_mm, double to_period_mm) {
-    constexpr double middle_mm = 100.0;
     const double turned_rad =
-        2.0 * std::numbers::pi * middle_mm * (1.0 / to_period_mm - 1.0 / from_period_mm);
+        2.0 * std::numbers::pi * rail_middle_mm * (1.0 / to_period_mm - 1.0 / from_period_mm);
     return std::remainder(phase_rad - turned_rad, 2.0 * std::numbers::pi);
 }
 

@@ -12,6 +12,9 @@ namespace fidservo::gap {
 /// apart.
 inline constexpr double shortest_wave_mm = 1.9;
 
+/// A place about the middle of a rail, at which phases of waves are compared.
+inline constexpr double rail_middle_mm = 100.0;
+
 /// Indices of an effect's parameters for the wave.
 struct WaveParameters {
     std::size_t amplitude, period, phase;

@@ -10,6 +10,7 @@
 #include "gap/evidence/halves.h"
 #include "gap/fit/gap_size.h"
 #include "gap/fit/score.h"
+#include "gap/numbers.h"
 #include "gap/residuals/accusation.h"
 #include "gap/search/selection.h"
 #include "plant/effects/catalogue.h"
@@ -106,7 +107,8 @@ class EquationSearch {
     }
 
   private:
-    static constexpr std::size_t most_periods = 3, most_leading = 2, most_fitted = 8, most_tried = 3;
+    static constexpr std::size_t most_periods = 3, most_leading = 2, most_fitted = wide_beam,
+                                 most_tried = narrow_beam;
     static constexpr double working_out_s = 2.0;
 
     std::vector<Term> terms(Port port) {
@@ -212,9 +214,9 @@ class EquationSearch {
 
     Promise promised(const Sketch& sketch, const CrossFit& beside) const {
         const Hypothesis start = with(sketch);
-        constexpr int few_iterations = 5;
+        constexpr int trial_iterations = 5;
         const Fit fit = fitter_.fit_places(0, start, {start.size() - 1}, beside.mean_squares,
-                                           {.most_iterations = few_iterations});
+                                           {.most_iterations = trial_iterations});
         return saved(sketch, fit.hypothesis, beside);
     }
 

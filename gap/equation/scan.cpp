@@ -8,6 +8,7 @@
 #include "plant/formulas/formula_effect.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -19,18 +20,19 @@ namespace {
 
 /// A large error of the quantity at a port, in the port's unit.
 double usual_amount(plant::Port port) {
+    constexpr double of_power = 10.0, of_heat = 5.0, of_place_or_voltage = 0.1, of_view = 0.02;
     switch (port) {
         case plant::Port::heater_power:
-            return 10.0;
+            return of_power;
         case plant::Port::heat_flow:
         case plant::Port::transformation:
-            return 5.0;
+            return of_heat;
         case plant::Port::contraction:
         case plant::Port::platform:
         case plant::Port::hall_voltage:
-            return 0.1;
+            return of_place_or_voltage;
         default:
-            return 0.02;
+            return of_view;
     }
 }
 
@@ -41,6 +43,7 @@ std::vector<Sketch> scanned(const Evidence& evidence, const CrossFit& beside, pl
     const plant::Site site = plant::describe(port).site;
     if (site != plant::Site::micro && site != plant::Site::camera) return {};
     constexpr std::size_t few = 4;
+    constexpr std::array amounts{-1.0, -0.2, 0.2, 1.0};
     const Wanted wanted =
         where_most_is_lost(evidence, site == plant::Site::micro ? Signal::hall : Signal::tag,
                            beside.mean_squares, 1.0, few, few);
@@ -53,7 +56,7 @@ std::vector<Sketch> scanned(const Evidence& evidence, const CrossFit& beside, pl
         const Term& term = terms[t];
         if (term.texts.size() > 1) return;
         Scanned& best = found[t];
-        for (const double amount : {-1.0, -0.2, 0.2, 1.0}) {
+        for (const double amount : amounts) {
             const Sketch sketch{port, {term}, {amount * usual_amount(port) / term.size}};
             Hypothesis with = beside.of_half[0];
             with.push_back(plant::typical_setting(

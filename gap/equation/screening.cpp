@@ -12,6 +12,7 @@
 #include "gap/evidence/halves.h"
 #include "gap/fit/regression.h"
 #include "gap/fit/score.h"
+#include "gap/numbers.h"
 #include "gap/residuals/surrogate.h"
 #include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
@@ -87,7 +88,7 @@ PortResponses carriage_responses(const Evidence& evidence, const Errors& errors,
 /// sees it is several counts: where the encoder's zero is found from tags, the zero can only shift by whole
 /// counts.
 double a_little_of(plant::Port port, const Rig& rig) {
-    constexpr double counts = 4.0;
+    constexpr double counts = 4.0, of_power = 0.3, of_transformation = 0.1, of_view = 1e-4, otherwise = 1e-3;
     switch (port) {
         case plant::Port::camera_x:
         case plant::Port::camera_y:
@@ -96,17 +97,17 @@ double a_little_of(plant::Port port, const Rig& rig) {
             return counts * rig.macro.encoder_resolution_mm;
         case plant::Port::heater_power:
         case plant::Port::heat_flow:
-            return 0.3;
+            return of_power;
         case plant::Port::transformation:
-            return 0.1;
+            return of_transformation;
         case plant::Port::camera_rotation:
         case plant::Port::camera_tilt_u:
         case plant::Port::camera_tilt_v:
         case plant::Port::camera_scale:
         case plant::Port::frame_time:
-            return 1e-4;
+            return of_view;
         default:
-            return 1e-3;
+            return otherwise;
     }
 }
 
@@ -114,7 +115,6 @@ PortResponses simulated_responses(const Evidence& evidence, const Hypothesis& ba
                                   plant::Port port, const std::vector<Term>& terms) {
     PortResponses responses;
     responses.signal = plant::describe(port).site == plant::Site::camera ? Signal::tag : Signal::hall;
-    constexpr double nearly_all = 0.9;
     constexpr std::size_t few = 6;
     const Wanted wanted =
         where_most_is_lost(evidence, responses.signal, mean_squares(evidence.windows(), errors), nearly_all,
@@ -155,16 +155,16 @@ class RandomHalves {
     static constexpr int count = 20;
 
     explicit RandomHalves(const Evidence& evidence) : stream_(1, "random halves") {
-        constexpr std::size_t few = 6;
-        const bool by_run = evidence.recordings().size() >= few;
+        constexpr std::size_t enough = 6;
+        const bool by_run = evidence.recordings().size() >= enough;
         std::size_t run = 0, windows = 0;
         for (const Window& window : evidence.windows()) {
             if (window.run != run) {
                 run = window.run;
                 windows = 0;
             }
-            constexpr std::size_t stretch = 4, most_stretches = 10000;
-            piece_.push_back(by_run ? run : run * most_stretches + windows++ / stretch);
+            constexpr std::size_t most_stretches = 10000;
+            piece_.push_back(by_run ? run : run * most_stretches + windows++ / windows_in_stretch);
         }
     }
 
@@ -217,8 +217,6 @@ std::vector<int> admitted(const std::vector<Term>& terms, const std::vector<int>
     return kept;
 }
 
-constexpr double as_good = 0.8;
-
 /// For each selected term, the share of random halves in which its family is selected again and its first
 /// factor has the same sign.
 std::vector<double> shares_of_halves(const Evidence& evidence, const Regression& regression,
@@ -229,7 +227,7 @@ std::vector<double> shares_of_halves(const Evidence& evidence, const Regression&
     std::vector<double> shares(taken.size(), 0.0);
     for (int k = 0; k < RandomHalves::count; ++k) {
         const Regression half = regression.restricted_to(halves.next());
-        const std::vector<int> found = admitted(terms, half.significant_groups(tail, as_good));
+        const std::vector<int> found = admitted(terms, half.significant_groups(tail, usually_as_good));
         std::size_t column = 0;
         for (std::size_t i = 0; i < taken.size(); ++i) {
             const Term& term = terms[static_cast<std::size_t>(taken[i])];
@@ -291,7 +289,7 @@ PortScreening::PortScreening(PortScreening&&) noexcept = default;
 
 std::optional<Sketch> PortScreening::sketch(double tail) const {
     const auto& [evidence, port, terms, responses, regression] = *parts_;
-    std::vector<int> taken = admitted(terms, regression.significant_groups(tail, as_good));
+    std::vector<int> taken = admitted(terms, regression.significant_groups(tail, usually_as_good));
     if (taken.empty()) return {};
     const std::vector<double> shares = shares_of_halves(evidence, regression, terms, taken, tail);
     for (std::size_t k = taken.size(); k-- > 0;)

@@ -65,17 +65,17 @@ FormulaEffect formula_of(const Sketch& sketch, std::string_view block, const std
             return replaced(std::move(text), memory_name, kept);
         };
         for (const std::string& text : term.texts) {
-            constexpr double reach = 30.0;
+            constexpr double reach = 30.0, least_size = 1e-12;
             const std::string letter(1, coefficient++);
             const double value = sketch.coefficients[at++];
-            const double most = reach * std::max(std::abs(value), 1e-12);
+            const double most = reach * std::max(std::abs(value), least_size);
             effect.formula +=
                 fmt::format("{}{} * {}", effect.formula.empty() ? "" : " + ", letter, named(text));
             effect.parameters.push_back({.name = letter,
                                          .unit = coefficient_unit(port.unit, term.unit),
                                          .low = -most,
                                          .high = most,
-                                         .typical = value != 0.0 ? value : 1e-12,
+                                         .typical = value != 0.0 ? value : least_size,
                                          .text = term.words});
         }
         for (std::size_t k = 0; k < term.shapes.size(); ++k)

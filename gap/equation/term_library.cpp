@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/equation/term_library.h"
 
+#include "gap/numbers.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +27,8 @@ std::string times(const std::string& factor, const std::string& text) {
 }  // namespace
 
 double KnownVariable::step() const {
-    return 0.5 * std::pow(10.0, std::floor(std::log10(std::max(1e-9, 2.0 * range.half()))) - 1.0);
+    // Mathematics: half of the last but one decimal place.
+    return 0.5 * std::pow(10.0, std::floor(std::log10(std::max(next_to_nothing, 2.0 * range.half()))) - 1.0);
 }
 
 std::string KnownVariable::clipped() const {
@@ -34,7 +37,7 @@ std::string KnownVariable::clipped() const {
 }
 
 double KnownVariable::origin() const {
-    constexpr double hardly = 0.1;
+    constexpr double hardly = small_part;
     const bool has_both_signs = std::min(-range.low, range.high) > hardly * range.half();
     return has_both_signs ? 0.0 : step() * std::round(range.middle() / step());
 }
@@ -45,11 +48,11 @@ std::string KnownVariable::centred() const {
 }
 
 double KnownVariable::most() const {
-    return std::max({std::abs(range.low), std::abs(range.high), 1e-9});
+    return std::max({std::abs(range.low), std::abs(range.high), next_to_nothing});
 }
 
 double KnownVariable::reach() const {
-    return std::max({range.high - origin(), origin() - range.low, 1e-9});
+    return std::max({range.high - origin(), origin() - range.low, next_to_nothing});
 }
 
 std::string KnownVariable::power_unit(int power) const {
@@ -95,7 +98,8 @@ void TermLibrary::add_squares_elsewhere(const KnownVariable& of, const std::stri
 
 void TermLibrary::add_knees(const std::string& text, const KnownVariable& of, const std::string& words) {
     const int family = next_family_++;
-    for (const double share : {0.2, 0.5, 0.8}) {
+    constexpr std::array knees{0.2, 0.5, 0.8};
+    for (const double share : knees) {
         const double at = of.range.low + share * (of.range.high - of.range.low);
         keep({{text},
               of.unit,
@@ -120,23 +124,26 @@ void TermLibrary::add_shaped(const std::vector<std::string>& texts, const TermSh
 
 void TermLibrary::add_waves(const std::string& variable, std::span<const double> periods_mm,
                             const std::string& factor) {
+    constexpr double shorter = 0.9, longer = 1.1;
     for (const double period_mm : periods_mm)
         add_shaped({times(factor, fmt::format("sin(2 * pi * {} / shape)", variable)),
                     times(factor, fmt::format("cos(2 * pi * {} / shape)", variable))},
-                   {"mm", period_mm, 0.9 * period_mm, 1.1 * period_mm}, std::array{period_mm},
+                   {"mm", period_mm, shorter * period_mm, longer * period_mm}, std::array{period_mm},
                    fmt::format("a wave along the way, {:.3g} mm long", period_mm));
 }
 
 void TermLibrary::add_steps_and_bells(const KnownVariable& of, std::span<const Bend> bends,
                                       const std::string& factor) {
-    const double half = std::max(of.range.half(), 1e-9);
+    const double half = std::max(of.range.half(), next_to_nothing);
+    constexpr double narrowest = 0.02, widest = 3.0;
     const auto add_bends = [&](const std::string& text, const std::string& words) {
         const int family = next_family_++;
         for (const auto& [width, centre] : bends)
             keep({{times(factor, text)},
                   "",
                   1.0,
-                  {{of.unit, width, 0.02 * half, 3.0 * half}, {of.unit, centre, of.range.low, of.range.high}},
+                  {{of.unit, width, narrowest * half, widest * half},
+                   {of.unit, centre, of.range.low, of.range.high}},
                   family,
                   words});
     };
@@ -147,14 +154,16 @@ void TermLibrary::add_steps_and_bells(const KnownVariable& of, std::span<const B
 }
 
 void TermLibrary::add_steps_and_bells(const KnownVariable& of) {
-    const double half = std::max(of.range.half(), 1e-9), middle = of.range.middle();
-    add_steps_and_bells(of, std::array{Bend{0.5 * half, middle}, Bend{0.25 * half, middle - 0.5 * half},
-                                       Bend{0.25 * half, middle}, Bend{0.25 * half, middle + 0.5 * half}});
+    const double half = std::max(of.range.half(), next_to_nothing), middle = of.range.middle();
+    constexpr double narrow = 0.25;
+    add_steps_and_bells(of,
+                        std::array{Bend{0.5 * half, middle}, Bend{narrow * half, middle - 0.5 * half},
+                                   Bend{narrow * half, middle}, Bend{narrow * half, middle + 0.5 * half}});
 }
 
 void TermLibrary::add_fading(const std::string& factor, const std::string& words) {
-    constexpr std::array time_constants_s{3.0, 10.0, 30.0};
-    add_shaped({times(factor, "exp(-time / shape)")}, {"s", 0.0, 0.3, 300.0}, time_constants_s, words);
+    add_shaped({times(factor, "exp(-time / shape)")}, {"s", 0.0, shortest_slow_s, longest_slow_s},
+               slow_constants_s, words);
 }
 
 void TermLibrary::add_remembering(const Memory& memory, const KnownVariable& of, const TermShape& shape,

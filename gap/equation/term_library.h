@@ -3,6 +3,7 @@
 // The construction of terms: powers, products, steps, bells, waves and lags of variables.
 #include "gap/equation/terms.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,10 @@ struct KnownVariable {
     /// The step to which numbers are rounded: a hundredth of the covered range, or less.
     double step() const;
 };
+
+/// Start values and range of the time constant of what is slow.
+inline constexpr std::array slow_constants_s{3.0, 10.0, 30.0};
+inline constexpr double shortest_slow_s = 0.3, longest_slow_s = 300.0;
 
 /// Collects the terms of a port.
 class TermLibrary {

@@ -38,7 +38,8 @@ std::array<Covered, plant::most_variables> covered_by(const Evidence& evidence, 
 /// Bends that cover a range side by side: twelve, and four wider ones.
 std::vector<TermLibrary::Bend> bends_along(const Covered& range) {
     std::vector<TermLibrary::Bend> bends;
-    for (const int count : {12, 4}) {
+    constexpr std::array counts{12, 4};
+    for (const int count : counts) {
         const double width = 2.0 * range.half() / count;
         for (int k = 0; k < count; ++k) bends.push_back({width, range.low + (k + 0.5) * width});
     }
@@ -46,7 +47,12 @@ std::vector<TermLibrary::Bend> bends_along(const Covered& range) {
 }
 
 constexpr std::array falling_speeds_mm_per_s{3.0, 8.0, 20.0, 60.0};
-const TermShape falling_speed{"mm/s", 0.0, 0.5, 300.0};
+constexpr double slowest_mm_per_s = 0.5, fastest_mm_per_s = 300.0;
+const TermShape falling_speed{"mm/s", 0.0, slowest_mm_per_s, fastest_mm_per_s};
+
+constexpr int highest_power = 3;
+/// Sizes of terms whose range is not known from the recordings.
+constexpr double usual_acceleration_mm_per_s2 = 1e3, usual_drive_V = 3.0;
 
 void add_carriage_terms(TermLibrary& library, plant::Port port, const CoveredRanges& ranges,
                         std::span<const double> periods_mm) {
@@ -57,7 +63,7 @@ void add_carriage_terms(TermLibrary& library, plant::Port port, const CoveredRan
     const KnownVariable way{"way", "mm", ranges.way_mm, "the way gone"};
     if (port == plant::Port::force) {
         library.add_constant({}, "the same everywhere");
-        library.add_powers(place, 3);
+        library.add_powers(place, highest_power);
         library.add_waves("place", periods_mm);
         library.add_steps_and_bells(place, bends_along(ranges.place_mm));
         library.add_powers(time, 1);
@@ -65,11 +71,13 @@ void add_carriage_terms(TermLibrary& library, plant::Port port, const CoveredRan
         return;
     }
     if (port == plant::Port::drive_voltage) {
+        constexpr double longest_delay_s = 0.05;
+        constexpr std::array delays_s{0.003, 0.012};
         library.add_powers(command, 1);
-        library.add_delayed(command, {"s", 0.0, 0.0, 0.05}, std::array{0.003, 0.012});
+        library.add_delayed(command, {"s", 0.0, 0.0, longest_delay_s}, delays_s);
         library.add(fmt::format("{0} * abs({0})", command.clipped()), "V2", std::pow(command.reach(), 2),
                     "growing with the square of the command");
-        library.add_powers(command, 3);
+        library.add_powers(command, highest_power);
         library.add_knees("sign(command) * max(0, abs(command) - shape)",
                           {"command", "V", {0.0, ranges.command_V.high}, "the command"},
                           "in proportion to the command beyond a size at which it begins");
@@ -82,7 +90,7 @@ void add_carriage_terms(TermLibrary& library, plant::Port port, const CoveredRan
     library.add_powers(speed, 1);
     library.add(fmt::format("{0} * abs({0})", speed.clipped()), "mm2/s2", std::pow(speed.reach(), 2),
                 "growing with the square of speed, as the drag of a fluid does");
-    library.add(fmt::format("{}^3", speed.clipped()), "mm3/s3", std::pow(speed.reach(), 3),
+    library.add(fmt::format("{}^3", speed.clipped()), "mm3/s3", std::pow(speed.reach(), highest_power),
                 "growing with the cube of speed");
     library.add(fmt::format("abs({})", speed.clipped()), "mm/s", speed.reach(),
                 "in proportion to speed, other ways for the other direction");
@@ -117,7 +125,10 @@ void add_micro_terms(TermLibrary& library, plant::Port port, const CoveredRanges
     const KnownVariable heater{"heater_command", "V", ranges.heater_V, "the heater's voltage"};
     const KnownVariable heating{"heater_power", "degC", ranges.power_degC, "the heater's power"};
     const double rise = std::max(1.0, ranges.wire_degC.high - ranges.wire_degC.low);
-    const double rate = std::max(0.1, ranges.contraction_mm.high - ranges.contraction_mm.low);
+    constexpr double least_rate_mm_per_s = 0.1;
+    const double rate = std::max(least_rate_mm_per_s, ranges.contraction_mm.high - ranges.contraction_mm.low);
+    constexpr double longest_heating_delay_s = 0.5, shortest_lag_s = 0.01, longest_lag_s = 10.0;
+    constexpr std::array heating_delays_s{0.02, 0.1}, lags_s{0.05, 0.5};
     const auto add_rise = [&](int highest) {
         for (int power = 1; power <= highest; ++power)
             library.add(
@@ -131,7 +142,7 @@ void add_micro_terms(TermLibrary& library, plant::Port port, const CoveredRanges
         case plant::Port::heater_power:
             library.add_constant({}, "the same at all times, as of a warmer room");
             library.add("heater_power", "degC", rise, "in proportion to the heater's power");
-            library.add_delayed(heating, {"s", 0.0, 0.0, 0.5}, std::array{0.02, 0.1});
+            library.add_delayed(heating, {"s", 0.0, 0.0, longest_heating_delay_s}, heating_delays_s);
             library.add("heater_power^2", "degC2", rise * rise,
                         "growing with the square of the heater's power");
             library.add_constant("(heater_power > 0)", "the same whenever it is heated");
@@ -143,7 +154,7 @@ void add_micro_terms(TermLibrary& library, plant::Port port, const CoveredRanges
             return;
         case plant::Port::heat_flow:
             library.add_constant({}, "the same at all times");
-            add_rise(3);
+            add_rise(highest_power);
             for (const auto& [sign, words] :
                  {std::pair{'<', "in proportion to what it cools by, while it cools"},
                   std::pair{'>', "in proportion to what heats it, while it is heated"}})
@@ -152,7 +163,7 @@ void add_micro_terms(TermLibrary& library, plant::Port port, const CoveredRanges
                                 "room_temp)",
                                 sign),
                     "degC", rise, words);
-            library.add_lagging(wire, {"s", 0.0, 0.3, 300.0}, std::array{3.0, 10.0, 30.0});
+            library.add_lagging(wire, {"s", 0.0, shortest_slow_s, longest_slow_s}, slow_constants_s);
             library.add("contraction_rate", "mm/s", rate,
                         "in proportion to the rate of contraction, as latent heat is");
             library.add("abs(contraction_rate)", "mm/s", rate,
@@ -165,7 +176,7 @@ void add_micro_terms(TermLibrary& library, plant::Port port, const CoveredRanges
             return;
         case plant::Port::transformation:
             library.add_constant({}, "the same always");
-            library.add_powers(contraction, 3);
+            library.add_powers(contraction, highest_power);
             library.add("contraction_rate", "mm/s", rate, "in proportion to the rate of contraction");
             library.add("sign(contraction_rate)", "", 1.0,
                         "of one sign in contraction, the other in extension");
@@ -174,30 +185,32 @@ void add_micro_terms(TermLibrary& library, plant::Port port, const CoveredRanges
             library.add_powers(wire, 2);
             return;
         case plant::Port::contraction:
-            library.add_powers(contraction, 3);
+            library.add_powers(contraction, highest_power);
             library.add_steps_and_bells(contraction);
             library.add_powers(wire, 2);
             library.add_steps_and_bells(wire);
             library.add("contraction_rate", "mm/s", rate, "in proportion to its rate, as a lag is");
-            library.add_lagging(contraction, {"s", 0.0, 0.01, 10.0}, std::array{0.05, 0.5});
+            library.add_lagging(contraction, {"s", 0.0, shortest_lag_s, longest_lag_s}, lags_s);
             library.add("clip(contraction, 0, 5) * time", "mm s", 2.0 * ranges.time_s.high,
                         "in proportion to contraction and time");
             return;
         case plant::Port::platform:
-            library.add("acceleration", "mm/s2", 1e3, "in proportion to the carriage's acceleration");
+            library.add("acceleration", "mm/s2", usual_acceleration_mm_per_s2,
+                        "in proportion to the carriage's acceleration");
             library.add_powers(speed, 1);
             library.add_powers(place, 2);
             return;
         case plant::Port::hall_voltage:
             library.add_constant({}, "the same always");
-            library.add_powers(platform, 3);
+            library.add_powers(platform, highest_power);
             add_rise(2);
             library.add_steps_and_bells(platform);
             library.add_powers(time, 1);
             library.add_fading({}, "fading with time");
-            library.add("drive", "V", 3.0, "in proportion to the drive's voltage");
+            library.add("drive", "V", usual_drive_V, "in proportion to the drive's voltage");
             library.add_powers(place, 2);
-            library.add("acceleration", "mm/s2", 1e3, "in proportion to the carriage's acceleration");
+            library.add("acceleration", "mm/s2", usual_acceleration_mm_per_s2,
+                        "in proportion to the carriage's acceleration");
             return;
         default:
             return;
@@ -213,7 +226,7 @@ void add_camera_terms(TermLibrary& library, plant::Port port, const CoveredRange
         case plant::Port::tag_x:
         case plant::Port::tag_y:
             library.add_constant({}, "the same for all tags");
-            library.add_powers(tag, 3);
+            library.add_powers(tag, highest_power);
             library.add_steps_and_bells(tag);
             library.add_waves("tag_x", periods_mm);
             return;
@@ -223,7 +236,7 @@ void add_camera_terms(TermLibrary& library, plant::Port port, const CoveredRange
             return;
         default:
             library.add_constant({}, "constant");
-            library.add_powers(camera, 3);
+            library.add_powers(camera, highest_power);
             library.add_steps_and_bells(camera);
             library.add_waves("camera_place", periods_mm);
             library.add_powers(time, 2);
@@ -260,7 +273,7 @@ std::vector<Term> terms_of(plant::Port port, const CoveredRanges& ranges,
             add_carriage_terms(library, port, ranges, periods_mm);
             break;
         case plant::Site::encoder:
-            library.add_powers({"place", "mm", ranges.place_mm, "the place on the rail"}, 3);
+            library.add_powers({"place", "mm", ranges.place_mm, "the place on the rail"}, highest_power);
             library.add_waves("place", periods_mm);
             break;
         case plant::Site::micro:

@@ -3,6 +3,7 @@
 
 #include "core/rig.h"
 #include "gap/evidence/plate_tag.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,7 @@ bool looks_smeared(const TagAppearance& seen, double cell_px) {
         most_px2 = std::max(most_px2, side.variance_px2);
     }
     const bool is_one_way_only = too_wide > 0 && too_wide < std::ssize(seen.sides);
-    return is_one_way_only || 12.0 * (most_px2 - least_px2) > std::pow(most_cells * cell_px, 2);
+    return is_one_way_only || uniform_divisor * (most_px2 - least_px2) > std::pow(most_cells * cell_px, 2);
 }
 
 /// How far a tag is from the nearest side of the image, px.
@@ -62,7 +63,7 @@ TagsInFrames smeared_tags(const Recording& recording) {
 
 void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_s, const Rig& rig,
                   double exposure_s, const TagsInFrames& smeared) {
-    constexpr double least_border_cells = 0.5, late = 1.5;
+    constexpr double least_border_cells = 0.5;
     const CameraParameters& camera = *rig.camera;
     std::vector<TagDetection>& detections = recording.detections;
     std::vector<double> smear_cells(detections.size());  // by which the tag moves during the exposure
@@ -82,7 +83,7 @@ void drop_unclear(Recording& recording, std::span<const double> velocity_mm_per_
         const auto [before, is_first] = last.try_emplace(now.tag_id, k);
         const std::size_t at = std::exchange(before->second, k);
         const double since_s = seconds(now.time_ns - detections[at].time_ns);
-        if (is_first || since_s <= 0.0 || since_s > late / camera.frame_rate_hz) continue;
+        if (is_first || since_s <= 0.0 || since_s > most_steps_apart / camera.frame_rate_hz) continue;
         const double way_px = (now.corners_px[0] - detections[at].corners_px[0]).norm();
         const double by_frames = exposure_s / since_s * way_px / cell_px(now);
         smear_cells[k] = std::max(smear_cells[k], by_frames);

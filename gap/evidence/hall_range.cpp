@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/evidence/hall_range.h"
 
+#include "gap/numbers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,7 +14,7 @@ namespace {
 /// Noise before rounding, in LSB, of readings between their extremes, by second differences d of neighbouring
 /// readings: mean d^2 = 6 (noise^2 + 1/12), as long as the platform's acceleration contributes little to d.
 double noise_inside_lsb(const std::vector<Recording>& recordings, const HallRange& extremes) {
-    constexpr double most_lsb = 8.0, fewest = 1000.0;
+    constexpr double most_lsb = 8.0, fewest = 1000.0, squares_of_second_difference = 6.0;
     double squares = 0.0, count = 0.0;
     for (const Recording& recording : recordings)
         for (std::size_t k = 1; k + 1 < recording.rows.size(); ++k) {
@@ -24,7 +26,9 @@ double noise_inside_lsb(const std::vector<Recording>& recordings, const HallRang
             squares += difference * difference;
             count += 1.0;
         }
-    return count < fewest ? 0.0 : std::sqrt(std::max(0.0, squares / count / 6.0 - 1.0 / 12.0));
+    return count < fewest ? 0.0
+                          : std::sqrt(std::max(
+                                0.0, squares / count / squares_of_second_difference - 1.0 / uniform_divisor));
 }
 
 /// The largest number of equal readings in a row that noise can explain.

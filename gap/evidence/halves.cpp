@@ -17,7 +17,6 @@ using RunOfSignal = std::pair<Signal, std::size_t>;
 /// @param half_of  the half of a run; runs that are missing here are divided into stretches
 std::vector<std::uint8_t> halves(const Evidence& evidence,
                                  const std::map<RunOfSignal, std::uint8_t>& half_of) {
-    constexpr std::size_t windows_in_stretch = 4;
     const std::vector<Window>& windows = evidence.windows();
     std::vector<std::uint8_t> half(windows.size());
     std::size_t in_run = 0;

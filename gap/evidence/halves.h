@@ -3,11 +3,15 @@
 // The division of the windows into two halves for cross-validation.
 #include "gap/evidence.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace fidservo::gap {
+
+/// Windows in a stretch that belongs to one half as a whole.
+inline constexpr std::size_t windows_in_stretch = 4;
 
 /// The half (0 or 1) to which each window belongs: hypotheses are fitted to one half and judged on the other,
 /// both ways. The recordings of one kind of experiment that contain a signal are assigned to the halves

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/evidence/late_ticks.h"
 
+#include "gap/numbers.h"
+
 #include <cmath>
 #include <utility>
 
@@ -12,10 +14,9 @@ namespace {
 /// ticks, or more than 0.1 s.
 std::size_t ticks_between(const StageRow& row, const StageRow& next, double tick_s) {
     constexpr double off_time = 0.1;  // in ticks
-    constexpr double longest_s = 0.1;
     const double pause_s = seconds(next.time_ns - row.time_ns);
     const double ticks = pause_s / tick_s, whole = std::round(ticks);
-    if (whole < 2.0 || pause_s > longest_s || std::abs(ticks - whole) > off_time) return 0;
+    if (whole < 2.0 || pause_s > longest_pause_s || std::abs(ticks - whole) > off_time) return 0;
     return static_cast<std::size_t>(whole) - 1;
 }
 

@@ -2,7 +2,9 @@
 #include "gap/evidence/noise_floor.h"
 
 #include "core/median.h"
+#include "gap/evidence.h"
 #include "gap/evidence/clear_detections.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +32,7 @@ std::optional<QuietStretch> judge(const std::vector<double>& reading, std::size_
         sum += reading[first + i];
         moment += reading[first + i] * (static_cast<double>(i) - 0.5 * (rows - 1.0));
     }
+    // Mathematics: the mean, and the slope of the line of least squares.
     const double mean = sum / rows, slope = moment / (rows * (rows * rows - 1.0) / 12.0);
     if (!(std::abs(slope) * rows < most_rise)) return std::nullopt;
     QuietStretch stretch{mean, 0.0, quiet_rows};
@@ -43,7 +46,8 @@ std::optional<QuietStretch> judge(const std::vector<double>& reading, std::size_
 }  // namespace
 
 double rounded_variance(double mean, double noise) {
-    const auto reach = static_cast<int>(std::ceil(6.0 * noise)) + 1;
+    constexpr double deviations = 6.0;
+    const auto reach = static_cast<int>(std::ceil(deviations * noise)) + 1;
     const double nearest = std::floor(mean + 0.5);
     double first = 0.0, second = 0.0;
     for (int i = -reach; i <= reach; ++i) {
@@ -84,7 +88,8 @@ std::optional<double> noise_before_rounding(std::vector<QuietStretch> stretches)
                    static_cast<double>(stretch.rows - 2) * rounded_variance(stretch.mean, noise);
         return sum;
     };
-    double low = 0.0, high = 0.25;
+    constexpr double first_guess = 0.25;
+    double low = 0.0, high = first_guess;
     while (excess(high) > 0.0) high *= 2.0;
     constexpr double resolution = 1e-4;
     while (high - low > resolution) {
@@ -95,12 +100,12 @@ std::optional<double> noise_before_rounding(std::vector<QuietStretch> stretches)
 }
 
 double floor_of(double noise) {
-    return std::sqrt(noise * noise + 1.0 / 12.0);
+    return std::sqrt(noise * noise + 1.0 / uniform_divisor);
 }
 
 std::optional<double> corner_noise_px(const std::vector<Recording>& recordings, double frame_s) {
     constexpr std::size_t least_pairs = 20;
-    constexpr double late = 1.5, mad_of_normal = 0.6744897501960817;
+    constexpr double mad_of_normal = 0.6744897501960817;
     std::vector<double> sizes;
     for (const Recording& recording : recordings) {
         std::map<int, const TagDetection*> seen;  // latest detection of each tag
@@ -109,13 +114,13 @@ std::optional<double> corner_noise_px(const std::vector<Recording>& recordings, 
             if (refines && !now.is_refined.value_or(true)) continue;
             const TagDetection* before = std::exchange(seen[now.tag_id], &now);
             if (before == nullptr || now.time_ns <= before->time_ns ||
-                seconds(now.time_ns - before->time_ns) > late * frame_s)
+                seconds(now.time_ns - before->time_ns) > most_steps_apart * frame_s)
                 continue;
-            for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t c = 0; c < corner_count; ++c)
                 sizes.push_back(std::abs(now.corners_px[c].y() - before->corners_px[c].y()));
         }
     }
-    if (sizes.size() < 4 * least_pairs) return std::nullopt;
+    if (sizes.size() < corner_count * least_pairs) return std::nullopt;
     return median_of(sizes) / (mad_of_normal * std::numbers::sqrt2);
 }
 

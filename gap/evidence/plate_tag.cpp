@@ -26,9 +26,9 @@ std::optional<PlateTag> plate_tag(const Recording& recording, const Rig& rig, in
     return PlateTag{id, {column * grid.pitch_x_mm, row * grid.pitch_y_mm}, grid.side_mm, 0.0, grid.print};
 }
 
-std::array<Eigen::Vector2d, 4> plate_corners_mm(const PlateTag& tag) {
+std::array<Eigen::Vector2d, corner_count> plate_corners_mm(const PlateTag& tag) {
     const Eigen::Rotation2Dd turn(tag.angle_rad);
-    std::array<Eigen::Vector2d, 4> corners_mm;
+    std::array<Eigen::Vector2d, corner_count> corners_mm;
     for (std::size_t k = 0; k < corners_mm.size(); ++k)
         corners_mm[k] = tag.centre_mm + 0.5 * tag.side_mm * (turn * tag_corners[k]);
     return corners_mm;

@@ -3,6 +3,7 @@
 // Which tag of the plate a detection shows.
 #include "core/plate.h"
 #include "core/recording.h"
+#include "gap/evidence.h"
 
 #include <array>
 #include <optional>
@@ -24,6 +25,6 @@ bool shows_tags(const Recording& recording, const Rig& rig);
 std::optional<PlateTag> plate_tag(const Recording& recording, const Rig& rig, int id);
 
 /// A tag's corners on the plate, in the order in which detections list them, mm.
-std::array<Eigen::Vector2d, 4> plate_corners_mm(const PlateTag& tag);
+std::array<Eigen::Vector2d, corner_count> plate_corners_mm(const PlateTag& tag);
 
 }  // namespace fidservo::gap

@@ -2,6 +2,7 @@
 #include "gap/evidence/windows.h"
 
 #include "core/demand.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,7 @@ namespace fidservo::gap {
 
 namespace {
 
-constexpr double window_s = 1.0, least_s = 0.3, lead_s = 0.1;
+constexpr double least_s = 0.3;
 
 std::size_t rows_of(double time_s, double tick_s) {
     return std::max<std::size_t>(2, static_cast<std::size_t>(std::lround(time_s / tick_s)));
@@ -20,12 +21,11 @@ std::size_t rows_of(double time_s, double tick_s) {
 
 std::vector<Stretch> stretches(const Recording& recording, const std::vector<bool>& usable) {
     FIDSERVO_DEMAND(usable.size() == recording.rows.size());
-    constexpr double late = 1.5;  // ticks between two rows from which on a row is missing
     std::vector<Stretch> found;
     bool open = false;
     for (std::size_t k = 0; k < usable.size(); ++k) {
         const bool follows = open && seconds(recording.rows[k].time_ns - recording.rows[k - 1].time_ns) <
-                                         late * recording.tick_s;
+                                         most_steps_apart * recording.tick_s;
         if (usable[k] && !follows) found.push_back({k, k});
         if (usable[k]) found.back().end = k + 1;
         open = usable[k];

@@ -24,6 +24,11 @@ struct WindowRows {
     std::size_t lead, first, end;
 };
 
+/// The length of a window.
+inline constexpr double window_s = 1.0;
+/// What precedes a window, from which its initial state is estimated.
+inline constexpr double lead_s = 0.1;
+
 enum class LeadIn { none, estimates_state };
 
 /// Stretches of usable rows that follow each other at the recording's tick.

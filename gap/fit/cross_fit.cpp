@@ -12,12 +12,7 @@
 #include <utility>
 
 namespace fidservo::gap {
-namespace {
-
-/// Mean square in floors up to which a signal is at its floor.
-constexpr double floor_square = 1.1;
-
-}  // namespace
+namespace {}  // namespace
 
 CrossFitter::CrossFitter(const Evidence& evidence, std::size_t windows, std::function<bool()> stop)
     : evidence_(evidence), windows_(windows), stop_(std::move(stop)), half_(halves(evidence)) {}

@@ -24,8 +24,11 @@ struct CrossFit {
     bool is_of_one_half = false;
 };
 
+/// Mean square, in floors squared, up to which a signal is at its floor.
+inline constexpr double floor_square = 1.1;
+
 /// Each signal's mean square error, divided by that expected of the true model, minus 1; 0 if this ratio is
-/// at most 1.1, which is 5 % in r.m.s.
+/// at most floor_square, which is 5 % in r.m.s.
 using SignalExcess = std::array<double, signal_count>;
 
 class CrossFitter {

@@ -34,6 +34,10 @@ struct Fit {
 /// Wright, Numerical Optimization, 2nd ed., 2006, ch. 8.1).
 inline constexpr double usual_step = 0.01, close_step = 0.001, smooth_step = 3.45e-4;
 
+/// Tolerance of a fit whose values and covariance are reported, and iterations of one that begins nearby.
+inline constexpr double close_tolerance = 1e-6;
+inline constexpr int few_iterations = 6;
+
 struct FitOptions {
     int most_iterations = 12;
     /// Relative change of the loss, and of parameters (1e-4 at most), at which a fit ends.

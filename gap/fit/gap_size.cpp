@@ -2,6 +2,7 @@
 #include "gap/fit/gap_size.h"
 
 #include "core/random.h"
+#include "gap/fit/score.h"
 
 #include <algorithm>
 #include <array>
@@ -98,25 +99,26 @@ double TotalGap::removed() const {
 
 std::pair<double, double> removed_interval(const Evidence& evidence, std::span<const double> before,
                                            std::span<const double> after) {
-    constexpr int draws = 400;
-    constexpr std::size_t block = 3;
     constexpr double tail = 0.025;
-    const std::size_t blocks = (before.size() + block - 1) / block;
+    const std::size_t blocks = (before.size() + windows_in_correlation - 1) / windows_in_correlation;
     if (blocks == 0) return {0.0, 0.0};
     NoiseStream random(1, "bootstrap of the gap removed");
     std::vector<double> removed;
-    for (int draw = 0; draw < draws; ++draw) {
+    for (int draw = 0; draw < bootstrap_draws; ++draw) {
         Sums sums;
         for (std::size_t k = 0; k < blocks; ++k) {
             const auto which = std::min(
                 blocks - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(blocks)));
-            for (std::size_t w = block * which; w < std::min(before.size(), block * (which + 1)); ++w)
+            for (std::size_t w = windows_in_correlation * which;
+                 w < std::min(before.size(), windows_in_correlation * (which + 1)); ++w)
                 sums.add(evidence.windows()[w], before[w], after[w]);
         }
         removed.push_back(sums.total().removed());
     }
     std::ranges::sort(removed);
-    const auto at = [&](double share) { return removed[static_cast<std::size_t>(share * (draws - 1))]; };
+    const auto at = [&](double share) {
+        return removed[static_cast<std::size_t>(share * (bootstrap_draws - 1))];
+    };
     return {at(tail), at(1.0 - tail)};
 }
 

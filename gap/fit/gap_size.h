@@ -22,6 +22,9 @@ namespace fidservo::gap {
 /// A gap below this many floors is not worth a finding, however significant it is.
 inline constexpr double least_floors = 1.1;
 
+/// Draws of a bootstrap.
+inline constexpr int bootstrap_draws = 400;
+
 /// The gap of each signal before and after an explanation, from the mean squares of all windows. The
 /// discrepancy is 0 where the r.m.s. error that remains is below least_floors times that expected under the
 /// truth.

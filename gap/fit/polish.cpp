@@ -29,8 +29,9 @@ class LossOfPart : public cv::MinProblemSolver::Function {
 
     int getDims() const override { return static_cast<int>(free_.size()); }
     double calc(const double* scaled) const override {
+        constexpr double most_loss = 1e12;  // it is infinite for values that the plant refuses
         const double loss = total_loss(windows_, counted_, predict_(at(scaled)));
-        return std::min(loss, 1e12);  // it is infinite for values that the plant refuses
+        return std::min(loss, most_loss);
     }
 
     Hypothesis at(const double* scaled) const {
@@ -94,7 +95,7 @@ Fit stepped(const LossOfPart& loss, double best, double least, double step, doub
 
 Fit polish(const Predict& predict, std::span<const Window> windows, const Wanted& counted,
            const Hypothesis& start, const Places& places) {
-    const int most_predictions = 100;
+    constexpr int most_predictions = 100;
     constexpr double first_step = 0.1, enough = 1e-3;  // in scales
     const auto loss = cv::makePtr<LossOfPart>(predict, windows, counted, start, places);
     std::vector<double> best = loss->start();

@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "gap/fit/minimum_norm.h"
 #include "gap/fit/score.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,6 @@
 
 namespace fidservo::gap {
 namespace {
-
-/// A best group's lead over another group is not significant up to this many standard deviations.
-constexpr double column_tie_significance = 3.0;
 
 /// The ridge is a share of the column's own diagonal element of the normal matrix, enough to determine
 /// columns that are nearly collinear, plus a share of the mean diagonal element of its group, enough to
@@ -70,7 +68,7 @@ double square_of(const CondensedWindow& window) {
 /// the prediction moves, or moved where the prediction stands. Any column makes them a little less wrong; no
 /// linear model explains them.
 void drop_gross_windows(std::vector<CondensedWindow>& windows) {
-    constexpr double wrong = 2.0, ratio = 100.0;
+    constexpr double wrong = off_square, ratio = 100.0;
     std::vector<double> squares;
     for (const CondensedWindow& window : windows)
         if (square_of(window) > wrong) squares.push_back(square_of(window));
@@ -130,7 +128,8 @@ Eigen::VectorXd Regression::solve(std::span<const Eigen::Index> columns, std::ui
                 normal(i, k) += weight * window.gram(a, columns[static_cast<std::size_t>(k)]);
         }
     }
-    const double floor = 1e-12 * std::max(1e-300, normal.diagonal().maxCoeff());
+    constexpr double relative_floor = 1e-12;
+    const double floor = relative_floor * std::max(least_positive, normal.diagonal().maxCoeff());
     const Eigen::VectorXd own = normal.diagonal();
     normal.diagonal() += own_ridge * own + group_ridge * means_in_groups(columns, own) +
                          Eigen::VectorXd::Constant(width, floor);
@@ -198,7 +197,7 @@ std::vector<int> Regression::significant_groups(double tail, double as_good) con
         const Trial best = *std::ranges::max_element(trials, {}, gain);
         std::erase_if(trials, [&](const Trial& trial) {
             return gain(trial) < as_good * gain(best) ||
-                   compare(windows_, trial.squares, best.squares).significance > column_tie_significance;
+                   compare(windows_, trial.squares, best.squares).significance > chance_stds;
         });
         const auto simplest = std::ranges::min_element(trials, {}, [&](const Trial& trial) {
             return std::pair(std::ranges::count(group_of_, trial.group), -gain(trial));

@@ -8,6 +8,7 @@
 //
 //     G = A'A - A'N (N'N)^-1 N'A
 #include "gap/evidence.h"
+#include "gap/numbers.h"
 
 #include <cstdint>
 #include <span>
@@ -16,6 +17,9 @@
 #include <Eigen/Core>
 
 namespace fidservo::gap {
+
+/// Shares of the best gain from which on a simpler group is as good: usually, and for forces and tags.
+inline constexpr double usually_as_good = 0.8, nearly_as_good = 1.0 - hardly_any;
 
 /// Values of a regressor, laid out like the errors of the windows concerned.
 struct Column {

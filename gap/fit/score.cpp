@@ -2,6 +2,7 @@
 #include "gap/fit/score.h"
 
 #include "calib/significance.h"
+#include "gap/numbers.h"
 
 #include <cmath>
 #include <limits>
@@ -12,14 +13,14 @@ namespace {
 /// Windows in a block: errors of neighbouring windows are correlated through slow states, those of
 /// neighbouring frames are not (gap/links/image_link.h).
 std::size_t windows_in_block(Signal signal) {
-    return signal == Signal::image ? 1 : 3;
+    return signal == Signal::image ? 1 : windows_in_correlation;
 }
 
 constexpr int fewest_blocks = 4;
 
-/// The t with P(T > t) = tail, T being Student-distributed: Fisher's expansion (Abramowitz and Stegun,
-/// Handbook of Mathematical Functions, 1964, 26.7.5). For tails down to 1e-4 it is some per cent low at 4
-/// degrees of freedom, and by 1e-3 from 10 on.
+/// Mathematics: the t with P(T > t) = tail, T being Student-distributed: Fisher's expansion (Abramowitz and
+/// Stegun, Handbook of Mathematical Functions, 1964, 26.7.5). For tails down to 1e-4 it is some per cent low
+/// at 4 degrees of freedom, and by 1e-3 from 10 on.
 double student_bound(double freedom, double tail) {
     const double z = calib::normal_bound(tail), z2 = z * z;
     const double first = z * (z2 + 1.0) / 4.0;
@@ -113,7 +114,7 @@ Comparison compare(std::span<const Window> windows, std::span<const double> firs
     if (result.blocks < 2) return result;
     const double n = result.blocks, mean = result.gain / n;
     const double variance = (squares - n * mean * mean) / (n - 1.0);
-    result.significance = result.gain / std::sqrt(std::max(n * variance, 1e-300));
+    result.significance = result.gain / std::sqrt(std::max(n * variance, least_positive));
     return result;
 }
 

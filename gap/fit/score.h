@@ -11,10 +11,17 @@
 // outvote those that the hypothesis explains.
 #include "gap/evidence.h"
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 namespace fidservo::gap {
+
+/// Mean square, in floors squared, from which on a window is off.
+inline constexpr double off_square = 2.0;
+
+/// Neighbouring windows whose errors are correlated through slow states.
+inline constexpr std::size_t windows_in_correlation = 3;
 
 /// S_w of each window; NaN where no value counts, and everywhere for errors of a hypothesis that the plant
 /// refused.

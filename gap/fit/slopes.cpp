@@ -2,6 +2,7 @@
 #include "gap/fit/slopes.h"
 
 #include "core/parallel.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,7 @@ Errors slope(const Predict& predict, const ScaledParameters& parameters, std::si
 }
 
 bool move_slopes(KnownSlopes& known, std::span<const double> values, const Errors& errors) {
-    constexpr double well = 0.1;  // share of the change's sum of squares that may be mispredicted
+    constexpr double well = small_part;  // share of the change's sum of squares that may be mispredicted
     // Mispredictions up to four times the rounding of errors are no reason for an update, in which they
     // would be divided by a step that may be tiny.
     constexpr double most_rounding = 16.0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/links/between_rows.h"
 
+#include "gap/numbers.h"
+
 #include <algorithm>
 
 namespace fidservo::gap {
@@ -30,7 +32,7 @@ Moment moment_at(const std::vector<double>& time_s, double tick_s, double at_s) 
     if (time_s[row] > at_s || time_s[row + 1] <= at_s)
         row = static_cast<std::size_t>(std::ranges::upper_bound(time_s, at_s) - time_s.begin()) - 1;
     const double way_s = time_s[row + 1] - time_s[row];
-    return {row, (at_s - time_s[row]) / way_s, way_s < 1.5 * tick_s};
+    return {row, (at_s - time_s[row]) / way_s, way_s < most_steps_apart * tick_s};
 }
 
 std::size_t nearest_row(const std::vector<double>& time_s, double tick_s, double at_s) {
@@ -46,6 +48,7 @@ double carriage_mm(const CarriagePath& path, const Moment& at, double tick_s) {
     const double va = tick_s * path.velocity_mm_per_s[at.row],
                  vb = tick_s * path.velocity_mm_per_s[at.row + 1];
     const double way = b - a;
+    // Mathematics: the cubic with these ends and slopes.
     return a + t * (va + t * (3.0 * way - 2.0 * va - vb + t * (va + vb - 2.0 * way)));
 }
 
@@ -55,6 +58,7 @@ double between(const std::vector<double>& values, const Moment& at) {
     const double b = values[i], c = values[i + 1];
     const double a = i == 0 ? b : values[i - 1], d = i + 2 > last ? c : values[i + 2];
     const double t = at.share;
+    // Mathematics: the cubic through both ends, with the slopes between their neighbours.
     return b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));
 }
 

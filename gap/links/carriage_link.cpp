@@ -2,8 +2,10 @@
 #include "gap/links/carriage_link.h"
 
 #include "gap/links/carriage_start.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -65,10 +67,10 @@ std::size_t run_rows(const CarriageModel& model, const CarriageRun& run, std::si
 /// The state in which a stretch begins, before its counts correct it: at the first count; at rest, or with
 /// the velocity of the first counts; with what the mechanism remembers of the motion before.
 plant::MacroAxisState first_state(const CarriageModel& model, const CarriageRun& run, std::size_t row) {
-    const std::size_t glance = std::min<std::size_t>(20, lead_rows(run.tick_s));
+    const std::size_t glance = std::min(glance_rows, lead_rows(run.tick_s));
     auto state = plant::start(model.axis, position_mm(model.encoder, run.reading_count[row]));
     const double way_mm = position_mm(model.encoder, run.reading_count[row + glance]) - state.position_mm;
-    if (std::abs(way_mm) > 1.5 * model.encoder.resolution_mm)
+    if (std::abs(way_mm) > most_steps_apart * model.encoder.resolution_mm)
         state.velocity_mm_per_s = way_mm / (static_cast<double>(glance) * run.tick_s);
     state.mechanism = remembered(run.way, model.axis, model.encoder.resolution_mm, row);
     state.mechanism.driven_mm_per_s = state.velocity_mm_per_s;
@@ -99,6 +101,7 @@ class Lead {
     plant::MacroAxisState enter(const WindowRows& window, const plant::MacroAxisState& carried,
                                 bool is_carried) {
         constexpr double enough = 1.0;
+        constexpr std::array places_count{-0.2, 0.2, -0.4, 0.4};
         Way best = corrected(window, carried);
         if (!is_carried && !is_linear() && best.loss > enough)
             best = corrected_by_trials(window, carried, best);
@@ -114,7 +117,7 @@ class Lead {
         plant::MacroAxisState at_rest = carried;
         at_rest.velocity_mm_per_s = at_rest.mechanism.driven_mm_per_s = 0.0;
         const plant::MacroAxisState& from = try_from(at_rest) ? at_rest : carried;
-        for (const double beside_count : {-0.2, 0.2, -0.4, 0.4}) {
+        for (const double beside_count : places_count) {
             plant::MacroAxisState beside = from;
             beside.position_mm += beside_count * mm_per_count(model_.encoder, carried.position_mm);
             try_from(beside);
@@ -139,12 +142,12 @@ class Lead {
     }
 
     Way corrected(const WindowRows& window, const plant::MacroAxisState& carried) {
-        constexpr int most_rounds = 3;
+        constexpr int most_corrections = 3;
         constexpr double enough_count = 0.01;
         const double ticks_per_tau = model_.axis.parameters.time_constant_s / run_.tick_s;
         StartCorrection done;
         Way way{play(window, carried, done, motion_), std::numeric_limits<double>::infinity(), done};
-        for (int round = 0; round < most_rounds; ++round) {
+        for (int round = 0; round < most_corrections; ++round) {
             const StartCorrection better = estimate_start(errors_, done, ticks_per_tau);
             if (round == 0) way.loss = start_loss(errors_, done);
             const double change =

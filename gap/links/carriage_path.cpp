@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/links/carriage_path.h"
 
+#include "gap/numbers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -39,13 +41,12 @@ CarriagePath unknown_path(std::size_t rows, Followed followed) {
 
 double position_mm(const plant::Encoder& encoder, double reading_count) {
     constexpr int enough = 8;
-    constexpr double next_to_nothing_mm = 1e-9;
     double place_mm = reading_count * encoder.resolution_mm;
     if (encoder.is_straight()) return place_mm;
     for (int step = 0; step < enough; ++step) {
         const double on_mm = encoder.resolution_mm * (reading_count - mean_reading_count(encoder, place_mm));
         place_mm += on_mm;
-        if (std::abs(on_mm) < next_to_nothing_mm) break;
+        if (std::abs(on_mm) < next_to_nothing) break;
     }
     return place_mm;
 }

@@ -5,6 +5,7 @@
 #include "control/pi_antiwindup.h"
 #include "core/hall.h"
 #include "core/rig.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <array>
@@ -100,9 +101,8 @@ struct SetpointCounts {
 /// @param step_mm  value of the file's last digit
 SetpointCounts setpoint_counts(double setpoint_mm, double step_mm, double resolution_mm,
                                const CountReading& reading) {
-    constexpr double slack_counts = 1e-9;  // for the rounding of the division
     const double counts = setpoint_mm / resolution_mm + (reading.truncates ? 0.0 : 0.5);
-    const double open_counts = 0.5 * step_mm / resolution_mm + slack_counts;
+    const double open_counts = 0.5 * step_mm / resolution_mm + next_to_nothing;  // the division rounds
     return {std::floor(counts - open_counts), std::floor(counts), std::floor(counts + open_counts)};
 }
 
@@ -300,7 +300,7 @@ ControllerRun micro_controller_run(const Recording& recording, const Rig& rig,
 }
 
 double controller_floor_V(const std::vector<double>& command_V) {
-    constexpr double least_V = 1e-4, coarsest_V = 1.0, tolerance = 1e-6;
+    constexpr double least_V = 1e-4, coarsest_V = 1.0, tolerance = 1e-6, decade = 10.0;
     const auto all_multiples = [&](double quantum_V) {
         return std::ranges::all_of(command_V, [&](double command) {
             const double steps = command / quantum_V;
@@ -311,8 +311,8 @@ double controller_floor_V(const std::vector<double>& command_V) {
         std::ranges::none_of(command_V, [](double command) { return std::abs(command) > 0.0; });
     double quantum_V = least_V;
     if (is_idle || !all_multiples(quantum_V)) return least_V;
-    while (quantum_V < coarsest_V && all_multiples(10.0 * quantum_V)) quantum_V *= 10.0;
-    return std::max(least_V, quantum_V / std::sqrt(12.0));
+    while (quantum_V < coarsest_V && all_multiples(decade * quantum_V)) quantum_V *= decade;
+    return std::max(least_V, quantum_V / std::sqrt(uniform_divisor));
 }
 
 double counted_floors(double error_V, double floor_V) {

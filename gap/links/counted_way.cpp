@@ -28,14 +28,13 @@ double forgetting_way_mm(const plant::MacroAxis& axis) {
 }  // namespace
 
 CountedWay counted_way(const std::vector<double>& reading_count) {
-    constexpr double half = 0.5;
     CountedWay way;
     way.place_count.reserve(reading_count.size());
     double place = std::numeric_limits<double>::quiet_NaN(), direction = 0.0;
     for (std::size_t row = 0; row < reading_count.size(); ++row) {
         const double count = reading_count[row];
         if (std::isfinite(count)) {
-            const double next = std::isnan(place) ? count : std::clamp(place, count - half, count + half);
+            const double next = std::isnan(place) ? count : std::clamp(place, count - 0.5, count + 0.5);
             const bool begins = way.turns.empty();
             if (begins || (next != place && std::copysign(1.0, next - place) != direction)) {
                 way.turns.push_back({row, begins ? count : place});

@@ -2,7 +2,6 @@
 #include "gap/links/hall_smoothing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -10,8 +9,6 @@ namespace fidservo::gap {
 
 namespace {
 
-constexpr std::array<std::size_t, 7> half_widths{2, 4, 8, 16, 32, 64, 128};
-constexpr double interval_stds = 1.0;
 /// Factor of the standard deviation by noise alone, for the deviations from a straight line that the rule
 /// admits.
 constexpr double bias_share = 1.25;
@@ -44,6 +41,7 @@ class LineFits {
     }
 
   private:
+    /// Mathematics: the sum of squared distances of so many neighbouring rows from their middle.
     static double spread(double count) { return count * (count * count - 1.0) / 12.0; }
 
     std::vector<double> sums_, moments_;
@@ -59,7 +57,7 @@ std::vector<Stretch> pieces_of(const PlatformRun& run) {
         if (usable) pieces.back().end = k + 1;
         open = usable && run.ticks[k] == 1;
     }
-    std::erase_if(pieces, [](const Stretch& piece) { return piece.rows() < 3; });
+    std::erase_if(pieces, [](const Stretch& piece) { return piece.rows() <= 2; });
     return pieces;
 }
 
@@ -74,8 +72,7 @@ std::size_t width_at(const LineFits& fits, std::size_t at, std::size_t rows, dou
     for (std::size_t i = 0; i < half_widths.size(); ++i) {
         const Stretch fitted = stretch_around(at, half_widths[i], rows);
         const double fit = fits.line(at, fitted.first, fitted.end);
-        const double reach =
-            interval_stds * floor_lsb * std::sqrt(LineFits::variance(at, fitted.first, fitted.end));
+        const double reach = floor_lsb * std::sqrt(LineFits::variance(at, fitted.first, fitted.end));
         low = std::max(low, fit - reach);
         high = std::min(high, fit + reach);
         if (low > high) return i == 0 ? 0 : i - 1;

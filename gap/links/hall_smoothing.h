@@ -13,9 +13,14 @@
 // allow for the motion that is lost, 1.02.
 #include "gap/links/platform_link.h"
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace fidservo::gap {
+
+/// The values of h.
+inline constexpr std::array<std::size_t, 7> half_widths{2, 4, 8, 16, 32, 64, 128};
 
 /// One value for each row; rows without a reading have the value of the row before.
 struct SmoothedReading {

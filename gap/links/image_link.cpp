@@ -2,12 +2,14 @@
 #include "gap/links/image_link.h"
 
 #include "core/camera/camera_parameters.h"
+#include "gap/numbers.h"
 #include "plant/view/view_options.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -15,8 +17,10 @@
 namespace fidservo::gap {
 namespace {
 
-constexpr double pixel_variance_px2 = 1.0 / 12.0, rounding_grey2 = 1.0 / 12.0, white_grey = 255.0;
-constexpr std::size_t sides = 4, first_light = sides, white_noise = 2 * sides, black_noise = white_noise + 1;
+constexpr double pixel_variance_px2 = 1.0 / uniform_divisor, rounding_grey2 = 1.0 / uniform_divisor;
+constexpr double white_grey = 255.0;
+constexpr std::size_t sides = corner_count, first_light = sides, white_noise = 2 * sides,
+                      black_noise = white_noise + 1;
 static_assert(black_noise + 1 == image_values);
 
 /// Allowances for systematic errors of the measurements, as shares (tests/vision/tag_appearance_test.cpp).
@@ -51,20 +55,21 @@ using TagTrack = std::vector<const TagDetection*>;
 
 Eigen::Vector2d middle_px(const TagDetection& tag) {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    for (const Eigen::Vector2d& corner : tag.corners_px) sum += 0.25 * corner;
+    for (const Eigen::Vector2d& corner : tag.corners_px) sum += corner_share * corner;
     return sum;
 }
 
 /// Empty where the two frames before or after do not show the tag, or its motion is not even enough.
 std::optional<ImageMotion> motion_at(const TagTrack& track, TimeNs time_ns, double frame_s) {
-    constexpr double late = 1.5, place_noise_px = 0.05, least_uncertain_share = 0.02,
-                     most_uncertain_share = 0.05, most_jump_share = 0.1;
+    constexpr double place_noise_px = 0.05, least_uncertain_share = 0.02, most_uncertain_share = hardly_any,
+                     most_jump_share = small_part, noise_of_jump = 4.0;
     const auto found = std::ranges::lower_bound(track, time_ns, {}, &TagDetection::time_ns);
     if (found == track.end() || (*found)->time_ns != time_ns || found - track.begin() < 2 ||
-        track.end() - found < 3)
+        track.end() - found <= 2)
         return std::nullopt;
     for (auto next = found - 1; next <= found + 2; ++next)
-        if (seconds((*next)->time_ns - (*(next - 1))->time_ns) > late * frame_s) return std::nullopt;
+        if (seconds((*next)->time_ns - (*(next - 1))->time_ns) > most_steps_apart * frame_s)
+            return std::nullopt;
     const auto slope = [&](std::ptrdiff_t frames) -> Eigen::Vector2d {
         const TagDetection& before = **(found - frames);
         const TagDetection& after = **(found + frames);
@@ -73,13 +78,16 @@ std::optional<ImageMotion> motion_at(const TagTrack& track, TimeNs time_ns, doub
     const auto turn_px = [&](std::ptrdiff_t frames) -> Eigen::Vector2d {
         return middle_px(**(found + frames)) + middle_px(**(found - frames)) - 2.0 * middle_px(**found);
     };
+    // Mathematics: a slope over two frames has four times the error of one over one frame.
     const Eigen::Vector2d near = slope(1), bend = (near - slope(2)) / 3.0;
+    // Mathematics: an even turn is as the square of the time.
     const double jump = (turn_px(2) - 4.0 * turn_px(1)).norm() / (2.0 * frame_s);
     const Eigen::Vector2d velocity = near + bend;
     const double speed = velocity.norm();
     if (bend.norm() > most_uncertain_share * speed + place_noise_px / frame_s ||
-        jump > most_jump_share * speed + 4.0 * place_noise_px / frame_s)
+        jump > most_jump_share * speed + noise_of_jump * place_noise_px / frame_s)
         return std::nullopt;
+    // Mathematics: three times the bend is by how much the two slopes differ.
     return ImageMotion{*found, velocity,
                        3.0 * bend.norm() + jump + place_noise_px / frame_s + least_uncertain_share * speed};
 }
@@ -88,7 +96,7 @@ double edge_variance_px2(const ImageModel& model, const Eigen::Vector2d& normal,
                          const Eigen::Vector2d& velocity_px_per_s) {
     const double exposure_s = model.camera.exposure_s + model.deviation.extra_exposure_s;
     return std::pow(model.camera.blur_px, 2) + std::pow(model.deviation.extra_blur_px, 2) +
-           pixel_variance_px2 + std::pow(exposure_s * normal.dot(velocity_px_per_s), 2) / 12.0;
+           pixel_variance_px2 + std::pow(exposure_s * normal.dot(velocity_px_per_s), 2) / uniform_divisor;
 }
 
 /// Mean light over the strip, by Gaussian quadrature with two points.
@@ -98,7 +106,7 @@ double light(const ImageModel& model, const TagSide& side) {
     light.gradient += model.deviation.light_gradient;
     light.vignetting += model.deviation.vignetting;
     const Eigen::Vector2d half(0.5 * (geometry.width_px - 1), 0.5 * (geometry.height_px - 1));
-    const Eigen::Vector2d away = side.half_strip_px / std::sqrt(3.0);
+    const Eigen::Vector2d away = side.half_strip_px / std::numbers::sqrt3;
     const auto at = [&](const Eigen::Vector2d& place_px) {
         return plant::brightness(light, (place_px - half).cwiseQuotient(half));
     };
@@ -133,6 +141,7 @@ ImageSighting sighting_of(const TagAppearance& seen, const ImageMotion& motion,
     Mean expected;
     const auto floor_of = [&](double noise, double allowance) {
         const double floor = std::hypot(noise, allowance);
+        // Mathematics: the mean square of an error that is uniform up to the allowance is a third of it.
         expected.add(1.0 - 2.0 / 3.0 * std::pow(allowance / floor, 2));
         return floor;
     };
@@ -144,10 +153,10 @@ ImageSighting sighting_of(const TagAppearance& seen, const ImageMotion& motion,
         const double along = std::abs(side.normal.dot(motion.velocity_px_per_s));
         const double longest_px = (camera.exposure_s + most_extra_s) * (along + motion.std_px_per_s);
         const double moved_px2 =
-            std::clamp(side.variance_px2 - still_px2, 0.0, longest_px * longest_px / 12.0);
+            std::clamp(side.variance_px2 - still_px2, 0.0, longest_px * longest_px / uniform_divisor);
         const double by_speed_px2 =
             along > 0.0 ? std::min(1.0, 2.0 * motion.std_px_per_s / along) * moved_px2 : 0.0;
-        const double unseen_px2 = std::pow(camera.exposure_s * motion.std_px_per_s, 2) / 12.0;
+        const double unseen_px2 = std::pow(camera.exposure_s * motion.std_px_per_s, 2) / uniform_divisor;
         sighting.floors[k] = floor_of(
             std::hypot(side.variance_std_px2, by_speed_px2 + unseen_px2) / side.variance_px2, edge_allowance);
         sighting.floors[first_light + k] = floor_of(side.white_std_grey / side.white_grey, light_allowance);

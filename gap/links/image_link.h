@@ -37,7 +37,7 @@ namespace fidservo::gap {
 
 /// The motion and the floors of an appearance.
 struct ImageSighting {
-    std::array<Eigen::Vector2d, 4> corners_px;  ///< corners of the tag's detection
+    std::array<Eigen::Vector2d, corner_count> corners_px;  ///< corners of the tag's detection
     Eigen::Vector2d velocity_px_per_s;
     std::array<double, image_values> floors;  ///< floors of the logarithms of the ratios
     double expected_square;                   ///< mean square of its errors under the truth, floors^2

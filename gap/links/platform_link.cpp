@@ -4,6 +4,7 @@
 #include "core/demand.h"
 #include "core/micro_parameters.h"
 #include "gap/links/wire_start.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +16,8 @@ namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-/// Standard deviation of the carried temperature. Where the wire's curve is flat, readings tell little of its
-/// temperature, and the noise that a larger value lets in shows as soon as the curve gets steep (50 LSB per
-/// degree on the reference rig): under the truth the errors of the practice campaign are then 1.01 floors
-/// with 0.02, 3.8 with 0.1 and 20 with 0.3. A small value also keeps the error of a wrong heater from being
-/// corrected away.
+/// Standard deviation of the carried temperature: small, since readings tell little where the curve is flat.
 constexpr double carried_std_degC = 0.003;
-constexpr double most_stds = 3.0;
 
 /// Whether a tick that changes neither temperatures nor contraction is followed by such ticks as long as the
 /// command stays: nothing depends on the time, on the carriage or on earlier commands.
@@ -90,9 +86,7 @@ class Pass {
 
     /// Estimates the platform's offset in the rows before a window, by linearised least squares.
     void find_beside(const WindowRows& window, const plant::MicroStageState& carried) {
-        constexpr double trial_mm = 0.01;
-        constexpr int rounds = 2;
-        for (int round = 0; round < rounds; ++round) {
+        for (int round = 0; round < linear_rounds; ++round) {
             plant::MicroStageState state = carried;
             double pull = 0.0, stiffness = 0.0;
             for (std::size_t k = window.lead; k < window.first; ++k) {
@@ -169,7 +163,7 @@ class Pass {
             stiffness += weight * slope * slope;
             step(trial, k);
         }
-        constexpr double most_degC = most_stds * carried_std_degC;
+        constexpr double most_degC = chance_stds * carried_std_degC;
         plant::MicroStageState state = carried;
         slide(model_.stage, state, std::clamp(pull / stiffness, -most_degC, most_degC));
         fade(window, state);
@@ -206,8 +200,8 @@ int ticks_between(TimeNs from_ns, TimeNs to_ns, double tick_s) {
 /// Marks the rows in which the wire's memory is not known as unusable.
 void leave_out_unknown_wire(const Recording& recording, const HeaterParameters& heater,
                             std::vector<bool>& usable) {
-    constexpr double longest_pause_s = 0.1, cold_taus = 5.0;
-    const double longest_under_way_s = std::max(0.01, 1.5 * recording.tick_s);
+    constexpr double cold_taus = 5.0, shortest_pause_s = 0.01;
+    const double longest_under_way_s = std::max(shortest_pause_s, most_steps_apart * recording.tick_s);
     bool is_known = true;
     // Time of the latest row with a command.
     TimeNs last_ns = recording.rows.empty() ? 0 : recording.rows.front().time_ns;
@@ -265,8 +259,8 @@ PlatformModel platform_model(const plant::PlantParameters& parameters) {
 
 FinerStage finer_stage(const plant::PlantParameters& parameters) {
     FIDSERVO_DEMAND(parameters.micro.has_value());
-    constexpr double longest_part_s = 1e-3, rounding = 1e-9;
-    const double parts = std::max(1.0, std::ceil(parameters.tick_s / longest_part_s - rounding));
+    constexpr double longest_part_s = 1e-3;
+    const double parts = std::max(1.0, std::ceil(parameters.tick_s / longest_part_s - next_to_nothing));
     return {plant::make_micro_stage(*parameters.micro, parameters.tick_s / parts),
             static_cast<std::size_t>(parts)};
 }

@@ -7,6 +7,7 @@
 #include "gap/evidence/plate_tag.h"
 #include "gap/links/carriage_run.h"
 #include "gap/links/controller_link.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +28,6 @@ bool same_controllers(const Recording& a, const Recording& b) {
 }
 
 bool goes_on(const Recording& before, const Recording& after, const Rig& rig) {
-    constexpr double longest_pause_s = 0.1;
     if (before.rows.empty() || after.rows.empty() || before.rig != after.rig ||
         before.tick_s != after.tick_s || before.plate != after.plate || !same_controllers(before, after))
         return false;
@@ -80,7 +80,7 @@ std::optional<double> camera_place_mm(const Recording& recording, const TagDetec
     const auto tag = plate_tag(recording, rig, detection.tag_id);
     if (!tag) return std::nullopt;
     Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
-    for (const Eigen::Vector2d& corner_px : detection.corners_px) middle_px += 0.25 * corner_px;
+    for (const Eigen::Vector2d& corner_px : detection.corners_px) middle_px += corner_share * corner_px;
     double s_mm = tag->centre_mm.x();
     constexpr int rounds = 3;  // with an oblique axis the distance changes on the way
     for (int round = 0; round < rounds; ++round)
@@ -123,6 +123,7 @@ SeenPlace median_place(std::span<const SeenPlace> places) {
 double offset_at_zero_mm(std::vector<SeenPlace> places) {
     constexpr double far_mm = 20.0;
     std::ranges::sort(places, {}, &SeenPlace::read_mm);
+    // Mathematics: a third, rounded up.
     const std::size_t third = (places.size() + 2) / 3;
     const SeenPlace low = median_place(std::span(places).first(third));
     const SeenPlace high = median_place(std::span(places).last(third));
@@ -134,9 +135,9 @@ double offset_at_zero_mm(std::vector<SeenPlace> places) {
 /// Whether all readings lie in the travel that the rig file states, with a margin at the far end for an
 /// encoder with a wrong scale.
 bool lies_in_travel(const Recording& recording, const MacroParameters& macro) {
-    constexpr double beyond_mm = 1.0, most_off = 0.05;
-    const double lowest_mm = macro.low_mm - beyond_mm;
-    const double highest_mm = macro.high_mm + beyond_mm + most_off * (macro.high_mm - macro.low_mm);
+    constexpr double most_off = 0.05;
+    const double lowest_mm = macro.low_mm - margin_mm;
+    const double highest_mm = macro.high_mm + margin_mm + most_off * (macro.high_mm - macro.low_mm);
     return std::ranges::all_of(readings_mm(recording, macro), [&](double place_mm) {
         return !(place_mm < lowest_mm || place_mm > highest_mm);
     });
@@ -178,7 +179,7 @@ std::vector<Recording> joined(std::vector<Recording> recordings, const Rig& rig)
 }
 
 PlacesFrom refer_to_travel(Recording& recording, const Rig& rig) {
-    constexpr double sure_counts = 0.5, at_most_mm = 1.0;
+    constexpr double sure_counts = 0.5;
     const double resolution_mm = rig.macro.encoder_resolution_mm;
     std::vector<SeenPlace> places;
     if (shows_tags(recording, rig)) places = seen_places(recording, rig);
@@ -189,7 +190,7 @@ PlacesFrom refer_to_travel(Recording& recording, const Rig& rig) {
     }
     const bool in_travel = lies_in_travel(recording, rig.macro);
     if (places.empty()) return in_travel ? PlacesFrom::recording : PlacesFrom::nowhere;
-    if (in_travel && std::abs(offset_at_zero_mm(places)) <= at_most_mm) return PlacesFrom::recording;
+    if (in_travel && std::abs(offset_at_zero_mm(places)) <= margin_mm) return PlacesFrom::recording;
     shift(recording, std::round(median_place(places).offset_mm / resolution_mm), resolution_mm);
     return PlacesFrom::tags;
 }

@@ -3,6 +3,7 @@
 
 #include "core/camera/camera_parameters.h"
 #include "core/median.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <array>
@@ -24,13 +25,13 @@ void add_exposure(std::vector<double>& exposures_s, const TagAppearance& seen,
     const double widened_px2 = most->variance_px2 - least->variance_px2;
     const double speeds2 = std::pow(along(*most), 2) - std::pow(along(*least), 2);
     if (speeds2 > std::pow(least_px_per_s, 2) && widened_px2 > 0.0)
-        exposures_s.push_back(std::sqrt(12.0 * widened_px2 / speeds2));
+        exposures_s.push_back(std::sqrt(uniform_divisor * widened_px2 / speeds2));
 }
 
 /// From the middle of a tag's two upper corners to that of its two lower ones, px.
-Eigen::Vector2d downwards_px(std::array<Eigen::Vector2d, 4> corners_px) {
+Eigen::Vector2d downwards_px(std::array<Eigen::Vector2d, corner_count> corners_px) {
     std::ranges::sort(corners_px, {}, [](const Eigen::Vector2d& corner) { return corner.y(); });
-    return 0.5 * (corners_px[2] + corners_px[3] - corners_px[0] - corners_px[1]);
+    return 0.5 * (corners_px[2] + corners_px.back() - corners_px.front() - corners_px[1]);
 }
 
 double seen_readout_s(std::span<const ImageRun> images, int height_px) {

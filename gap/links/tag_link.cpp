@@ -6,6 +6,7 @@
 #include "core/rig.h"
 #include "gap/evidence/plate_tag.h"
 #include "gap/links/between_rows.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ namespace {
 /// Standard deviation of the carriage's path, as a share of the distance covered since its offset was found.
 constexpr double way_share = 0.02;
 /// Standard deviation of a position within its count, in counts.
-const double hidden_count = 1.0 / std::sqrt(12.0);
+const double hidden_count = 1.0 / std::sqrt(uniform_divisor);
 
 /// The camera's position as a function of the time since the recording's first row.
 class CameraPlace {
@@ -48,6 +49,7 @@ class CameraPlace {
         const double extra_s = model_.deviation.extra_exposure_s;
         const double middle_mm = s_mm(at_s);
         const double half_s = 0.5 * model_.exposure_s;
+        // Mathematics: the mean over the exposure, by Simpson's rule.
         const double seen_mm =
             run_.is_seen ? (s_mm(at_s - half_s) + 4.0 * middle_mm + s_mm(at_s + half_s)) / 6.0 : middle_mm;
         if (extra_s == 0.0) return seen_mm;
@@ -103,7 +105,7 @@ class CameraPlace {
 CornerValues seen(const plant::ActualCamera& camera, const TagSighting& sighting, double s_mm,
                   const Eigen::Vector2d& beside_mm = Eigen::Vector2d::Zero()) {
     CornerValues corners;
-    for (int c = 0; c < 4; ++c)
+    for (int c = 0; c < corner_count; ++c)
         corners.segment<2>(2 * c) =
             camera.image_px(sighting.corners_mm[static_cast<std::size_t>(c)] + beside_mm, s_mm);
     return corners;
@@ -118,9 +120,8 @@ plant::ActualCamera camera_at(const TagModel& model, double time_s, double s_mm)
 
 /// d corners / ds, px per mm.
 CornerValues seen_slope(const plant::ActualCamera& camera, const TagSighting& sighting, double s_mm) {
-    constexpr double step_mm = 0.01;
-    return (seen(camera, sighting, s_mm + step_mm) - seen(camera, sighting, s_mm - step_mm)) /
-           (2.0 * step_mm);
+    return (seen(camera, sighting, s_mm + trial_mm) - seen(camera, sighting, s_mm - trial_mm)) /
+           (2.0 * trial_mm);
 }
 
 /// The corners that are predicted for a detection if the carriage's position is off by an offset.
@@ -132,9 +133,8 @@ CornerValues predicted(const TagModel& model, const CameraPlace& place, const Ta
     const Eigen::Vector2d beside_mm = plant::tag_offset_mm(model.deviation, sighting.centre_mm);
     CornerValues corners = seen(camera, sighting, middle_mm, beside_mm);
     if (model.deviation.readout_s == 0.0) return corners;
-    constexpr int rounds = 2;
-    for (int round = 0; round < rounds; ++round)
-        for (int c = 0; c < 4; ++c) {
+    for (int round = 0; round < linear_rounds; ++round)
+        for (int c = 0; c < corner_count; ++c) {
             const double v_px = std::clamp(corners[2 * c + 1], 0.0, model.camera.geometry.height_px - 1.0);
             const double late_s = plant::row_delay_s(model.camera.geometry, model.deviation, v_px);
             corners.segment<2>(2 * c) =
@@ -155,7 +155,7 @@ Eigen::Vector4d row_delays_s(const TagSighting& sighting, const CameraGeometry& 
     plant::CameraDeviation deviation;
     deviation.readout_s = readout_s;
     Eigen::Vector4d late_s;
-    for (int c = 0; c < 4; ++c)
+    for (int c = 0; c < corner_count; ++c)
         late_s[c] = plant::row_delay_s(camera, deviation, sighting.corners_px[2 * c + 1]);
     return late_s;
 }
@@ -165,14 +165,14 @@ Eigen::Vector4d row_delays_s(const TagSighting& sighting, const CameraGeometry& 
 void add_change(TagSighting& sighting, const CornerValues& slope, const Eigen::Vector4d& late_s,
                 double changed_mm) {
     CornerValues off_px = slope * changed_mm / (late_s.maxCoeff() - late_s.minCoeff());
-    for (int c = 0; c < 4; ++c) off_px.segment<2>(2 * c) *= late_s[c] - late_s.mean();
+    for (int c = 0; c < corner_count; ++c) off_px.segment<2>(2 * c) *= late_s[c] - late_s.mean();
     sighting.floors_px = (sighting.floors_px.cwiseAbs2() + turned(sighting, off_px).cwiseAbs2()).cwiseSqrt();
 }
 
 /// Leaves out the rows next to a pause of the Hall readings: lines through the readings of one side only tell
 /// the platform's position less precisely than lines through both (gap/links/hall_smoothing.h).
 void leave_out_rims(const Recording& recording, const PlatformRun& platform, std::vector<bool>& usable) {
-    constexpr std::size_t rim_rows = 64;
+    constexpr std::size_t rim_rows = half_widths.back() / 2;
     constexpr double longest_ticks = 10.5;
     std::size_t last = 0;  // latest row with a reading
     for (std::size_t k = 1; k < usable.size(); ++k) {
@@ -226,7 +226,7 @@ TagRun tag_run(const Recording& recording, const Rig& rig, const CarriagePath& p
             sighting.centre_mm = tag->centre_mm;
             sighting.corners_mm = plate_corners_mm(*tag);
         }
-        for (int c = 0; c < 4; ++c)
+        for (int c = 0; c < corner_count; ++c)
             sighting.corners_px.segment<2>(2 * c) = detection.corners_px[static_cast<std::size_t>(c)];
         run.sightings.push_back(sighting);
     }
@@ -301,11 +301,11 @@ double zero_offset_mm(const TagModel& model, const TagRun& run, const CarriagePa
                       const SmoothedReading* reading) {
     if (!run.zero_is_seen) return 0.0;
     constexpr std::size_t most = 201;
-    constexpr int rounds = 2;  // the image of a tag is not quite linear in the position
     const CameraPlace place(model, run, path, reading);
     const std::size_t step = 1 + run.sightings.size() / most;
     double offset_mm = 0.0;
-    for (int round = 0; round < rounds; ++round) {
+    // The image of a tag is not quite linear in the position.
+    for (int round = 0; round < linear_rounds; ++round) {
         std::vector<double> found_mm;
         for (std::size_t i = 0; i < run.sightings.size(); i += step) {
             const TagSighting& sighting = run.sightings[i];

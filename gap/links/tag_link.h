@@ -50,7 +50,7 @@ struct TagSighting {
     double stamp_s = 0.0;                                 ///< time since the recording's first row
     Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();  ///< centre of its tag, on the plate
     /// Corners of its tag, on the plate.
-    std::array<Eigen::Vector2d, 4> corners_mm{centre_mm, centre_mm, centre_mm, centre_mm};
+    std::array<Eigen::Vector2d, corner_count> corners_mm{centre_mm, centre_mm, centre_mm, centre_mm};
     CornerValues corners_px = CornerValues::Zero();
     double slope_px_per_mm = 0.0;                   ///< |d corners / ds|
     CornerValues mirror = CornerValues::Zero();     ///< normal of the reflection

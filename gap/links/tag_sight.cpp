@@ -2,6 +2,8 @@
 #include "gap/links/tag_sight.h"
 
 #include "core/rig.h"
+#include "gap/evidence/windows.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,20 +14,19 @@ namespace {
 
 /// Whether carriage and platform have moved by no more than this, on average and in a row, up to a row.
 bool has_stood(const Course& course, double tick_s, std::size_t row) {
-    constexpr double least_mm_per_s = 0.5, time_s = 0.1;
-    const auto rows = static_cast<std::size_t>(time_s / tick_s);
+    constexpr double least_mm_per_s = 0.5;
+    const auto rows = static_cast<std::size_t>(lead_s / tick_s);
     if (row < rows) return false;
     const std::span recent = std::span(course.velocity_mm_per_s).subspan(row - rows, rows + 1);
     if (!std::ranges::all_of(recent, [](float velocity) { return std::abs(velocity) < least_mm_per_s; }))
         return false;
     return course.contraction_mm.empty() ||
-           std::abs(course.contraction_mm[row] - course.contraction_mm[row - rows]) < least_mm_per_s * time_s;
+           std::abs(course.contraction_mm[row] - course.contraction_mm[row - rows]) < least_mm_per_s * lead_s;
 }
 
 }  // namespace
 
 TagSight sight_of(const Evidence& evidence, std::size_t run, std::size_t detection) {
-    constexpr std::size_t look_back = 20;
     const TagSighting& tag = evidence.sighting(run, detection);
     const Course& course = evidence.course(run);
     const std::vector<StageRow>& rows = evidence.recordings()[run].rows;
@@ -33,7 +34,7 @@ TagSight sight_of(const Evidence& evidence, std::size_t run, std::size_t detecti
     const auto after = std::ranges::upper_bound(
         rows, tag.stamp_s, {}, [&](const StageRow& row) { return seconds(row.time_ns - start_ns); });
     const auto next = static_cast<std::size_t>(after - rows.begin());
-    const std::size_t row = next > 0 ? next - 1 : 0, before = row > look_back ? row - look_back : 0;
+    const std::size_t row = next > 0 ? next - 1 : 0, before = row > glance_rows ? row - glance_rows : 0;
     TagSight found{run,
                    tag,
                    course.position_mm[row],

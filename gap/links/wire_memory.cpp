@@ -16,11 +16,7 @@ namespace {
 /// For each row, what the relays in unknown states contribute at most, mm. Since a rig's heater may differ
 /// from its file's, a relay counts as known only where the temperature passed its threshold by a margin.
 std::vector<double> unknown_mm(const PlatformRun& run, const PlatformModel& nominal) {
-    // The temperatures of two wires with the same contraction differ by less than the width of the
-    // hysteresis; a hundredth of a degree is half a step of the converter where the reference rig's wire is
-    // steepest.
     constexpr double most_off_degC = 30.0, enough_degC = 0.01;
-    // An error of typical size of the ambient or a transformation temperature.
     constexpr double margin_degC = 2.0;
     const double enough_taus = std::log(most_off_degC / enough_degC);
     const FodTable& table = *nominal.stage.fod;

@@ -2,6 +2,7 @@
 #include "gap/links/wire_start.h"
 
 #include "core/median.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,13 +68,15 @@ struct Excess {
     bool is_clear = false;  ///< more than noise and rounding explain
 };
 
+/// Standard deviations from which on something is clear; an excess of the reading below which nothing is
+/// seen.
+constexpr double clear_stds = 5.0, unseen_lsb = 1.0;
+
 /// @param zero_lsb  known offset of the sensor
 Excess first_excess(const PlatformModel& model, const PlatformRun& run, double zero_lsb = 0.0) {
-    constexpr std::size_t glance = 20;
-    constexpr double clear = 5.0, least_lsb = 1.0;
     plant::MicroStageState state = plant::start(model.stage, 0);
     Excess excess;
-    for (std::size_t k = 0; k < std::min(glance, run.hall_adc.size()); ++k) {
+    for (std::size_t k = 0; k < std::min(glance_rows, run.hall_adc.size()); ++k) {
         if (std::isfinite(run.hall_adc[k])) {
             excess.mean_lsb += run.hall_adc[k] - mean_reading_lsb(model.stage, state);
             ++excess.readings;
@@ -82,7 +85,7 @@ Excess first_excess(const PlatformModel& model, const PlatformRun& run, double z
     }
     if (excess.readings == 0) return excess;
     excess.mean_lsb = excess.mean_lsb / excess.readings - zero_lsb;
-    excess.is_clear = excess.mean_lsb >= least_lsb + clear * run.floor_lsb / std::sqrt(excess.readings);
+    excess.is_clear = excess.mean_lsb >= unseen_lsb + clear_stds * run.floor_lsb / std::sqrt(excess.readings);
     return excess;
 }
 
@@ -114,7 +117,7 @@ enum class Trend { unknown, still, drifting };
 /// Evaluates the first readings until a cold wire would be warm enough to move, or the motor's voltage
 /// changes, of which some may leak into the readings.
 Trend first_trend(const PlatformModel& nominal, const PlatformRun& run) {
-    constexpr double longest_s = 1.0, still_lsb = 0.3, same_V = 0.1, clear = 5.0;
+    constexpr double longest_s = 1.0, still_lsb = 0.3, same_V = 0.1;
     constexpr double least_readings = 10.0, least_still_s = 0.3;
     plant::MicroStageState cold = plant::start(nominal.stage, 0);
     const double still_at_lsb = mean_reading_lsb(nominal.stage, cold);
@@ -137,12 +140,11 @@ Trend first_trend(const PlatformModel& nominal, const PlatformRun& run) {
     }
     if (n < least_readings) return Trend::unknown;
     const double spread = tt - t * t / n;
-    if (std::abs(ty - t * y / n) > clear * run.floor_lsb * std::sqrt(spread)) return Trend::drifting;
+    if (std::abs(ty - t * y / n) > clear_stds * run.floor_lsb * std::sqrt(spread)) return Trend::drifting;
     return passed_s >= least_still_s && !is_heated ? Trend::still : Trend::unknown;
 }
 
-/// Ratio of squared errors from which on a prediction is far better. With half the errors, three independent
-/// stretches (one for each time constant of the cooling) are seven times as likely.
+/// Ratio of squared errors from which on a prediction is far better.
 constexpr double far_better = 0.25;
 
 /// Variances of the errors, LSB^2, with which the following readings are predicted from a cold wire, and from
@@ -172,7 +174,7 @@ ColdOrWarm cold_or_warm(const PlatformModel& nominal, const PlatformRun& run, do
 /// The stage with a wire that reads as a cold one does, at the temperature from which the following readings
 /// are predicted best, or cold if no other temperature is far better.
 plant::MicroStageState unmoved(const PlatformModel& model, const PlatformRun& run) {
-    constexpr double resolution_degC = 0.5, golden = 0.6180339887498949, not_seen_lsb = 1.0;
+    constexpr double resolution_degC = 0.5;
     const plant::MicroStageState cold = plant::start(model.stage, 0);
     const Cooling from_cold = while_cooling(model, run, cold);
     const double bound = far_better * from_cold.square;
@@ -190,20 +192,20 @@ plant::MicroStageState unmoved(const PlatformModel& model, const PlatformRun& ru
                                                           : one.square < other.square;
     };
     double low = 0.0;
-    double high = heated_to(model, not_seen_lsb).heater.temp_degC - cold.heater.temp_degC;
-    double left = high - golden * (high - low), right = low + golden * (high - low);
+    double high = heated_to(model, unseen_lsb).heater.temp_degC - cold.heater.temp_degC;
+    double left = high - golden_section * (high - low), right = low + golden_section * (high - low);
     Cooling at_left = found(left), at_right = found(right);
     while (high - low > resolution_degC) {
         if (is_better(at_left, at_right)) {
             high = right;
             right = left;
             at_right = at_left;
-            at_left = found(left = high - golden * (high - low));
+            at_left = found(left = high - golden_section * (high - low));
         } else {
             low = left;
             left = right;
             at_left = at_right;
-            at_right = found(right = low + golden * (high - low));
+            at_right = found(right = low + golden_section * (high - low));
         }
     }
     const double best = 0.5 * (low + high);
@@ -263,13 +265,11 @@ double zero_of_sensor_lsb(const PlatformModel& nominal, std::span<const Platform
 }
 
 WireStart wire_start(const PlatformModel& nominal, const PlatformRun& run, double zero_lsb) {
-    // Errors with a mean square of so many squared floors count as at the floor.
-    constexpr double at_the_floor = 4.0;
     const Excess excess = first_excess(nominal, run, zero_lsb);
     const Trend trend = first_trend(nominal, run);
     const ColdOrWarm way = cold_or_warm(nominal, run, excess.mean_lsb);
     if (way.is_warm() || (excess.is_clear && trend == Trend::drifting)) return WireStart::warm;
-    const bool is_cold = way.cold <= at_the_floor * run.floor_lsb * run.floor_lsb;
+    const bool is_cold = way.cold <= clearly_off_square * run.floor_lsb * run.floor_lsb;
     if (is_cold || (excess.is_clear && trend == Trend::still)) return WireStart::cold;
     return excess.is_clear ? WireStart::warm : WireStart::unmoved;
 }

@@ -4,6 +4,7 @@
 #include "gap/candidates/coupling.h"
 #include "gap/fit/score.h"
 #include "gap/links/tag_sight.h"
+#include "gap/numbers.h"
 #include "gap/residuals/false_readings.h"
 
 #include <algorithm>
@@ -12,9 +13,8 @@
 namespace fidservo::gap {
 namespace {
 
-/// What a reading displaces it displaces at rest, too: more than this share of the error along the motion. Of
-/// simulated false scales all of it is seen at rest, of late and skewed clocks a tenth at most.
-constexpr double share_at_rest = 0.5;
+/// What a reading displaces it displaces at rest, too: more than this share of the error along the motion.
+constexpr double share_at_rest = larger_part;
 
 std::string_view carriage_block(std::optional<Dependence> dependence) {
     if (dependence == Dependence::command || dependence == Dependence::command_share ||

@@ -4,6 +4,7 @@
 #include "gap/balance/carriage_forces.h"
 #include "gap/balance/hat_functions.h"
 #include "gap/balance/wave_of_force.h"
+#include "gap/numbers.h"
 #include "gap/residuals/surrogate.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace fidservo::gap {
 namespace {
 
 /// Of the squares of what is lacking, from which on a period is one.
-constexpr double least_share_of_wave = 0.05;
+constexpr double least_share_of_wave = hardly_any;
 
 /// By how much commands may be late.
 constexpr std::array<std::size_t, 2> late_ticks{2, 8};
@@ -84,7 +85,7 @@ void add_waves(std::vector<Column>& columns, const CarriageForces& forces, doubl
 /// @param effective_V  of effective_V()
 void add_waves_of_drive(std::vector<Column>& columns, const CarriageForces& forces,
                         const Quantity& share_passed, const Quantity& drive_after_dead_zone_V) {
-    constexpr double shortest_V = 0.1, longest_V = 1.0, shortest_mm = 5.0, longest_mm = 50.0;
+    constexpr double shortest_V = 0.1, longest_V = 1.0, shortest_mm = 5.0;
     const auto add = [&](Dependence dependence, const Quantity& quantity, const Quantity& factor,
                          double shortest, double longest, std::span<const double> harmonics) {
         const WaveOfForce wave = strongest_wave(forces, quantity, factor, shortest, longest);
@@ -101,7 +102,7 @@ void add_waves_of_drive(std::vector<Column>& columns, const CarriageForces& forc
         shortest_V, longest_V, std::array{1.0, 2.0});
     add(
         Dependence::position_drive, [](const SlidingRow& at) { return at.position_mm; },
-        drive_after_dead_zone_V, shortest_mm, longest_mm, std::array{1.0});
+        drive_after_dead_zone_V, shortest_mm, longest_period_mm, std::array{1.0});
 }
 
 }  // namespace
@@ -135,24 +136,24 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, dou
     Surrogate surrogate{Signal::encoder, {}, {}};
     surrogate.errors = forces.lacking();
     surrogate.windows = forces.windows();
-    surrogate.as_good = 0.95;
+    surrogate.as_good = nearly_as_good;
     std::vector<Column>& columns = surrogate.columns;
     const Quantity share_passed = [](const SlidingRow& at) { return at.passed; };
     const Quantity position_mm = [](const SlidingRow& at) { return at.position_mm; };
     const Quantity direction = [](const SlidingRow& at) { return at.direction; };
     const Quantity acceleration = [](const SlidingRow& at) { return at.acceleration_mm_per_s2; };
-    add_force_hats(columns, forces, Dependence::velocity, 12,
+    add_force_hats(columns, forces, Dependence::velocity, force_hats,
                    [](const SlidingRow& at) { return at.velocity_mm_per_s; });
     columns.push_back(
         force(forces, Dependence::velocity_share, [](const SlidingRow& at) { return at.velocity_mm_per_s; }));
     columns.push_back(force(forces, Dependence::direction, direction));
     columns.push_back(force(forces, Dependence::nothing, share_passed));
-    add_force_hats(columns, forces, Dependence::position, 16, position_mm, share_passed);
-    add_force_hats(columns, forces, Dependence::position_friction, 16, position_mm, direction);
+    add_force_hats(columns, forces, Dependence::position, rail_hats, position_mm, share_passed);
+    add_force_hats(columns, forces, Dependence::position_friction, rail_hats, position_mm, direction);
     columns.push_back(force(forces, Dependence::acceleration, acceleration));
     columns.push_back(reading(forces, Dependence::acceleration, acceleration));
     add_force_hats(
-        columns, forces, Dependence::command, 12, [](const SlidingRow& at) { return at.command_V; },
+        columns, forces, Dependence::command, force_hats, [](const SlidingRow& at) { return at.command_V; },
         share_passed);
     columns.push_back(
         force(forces, Dependence::command_share, passed([](const SlidingRow& at) { return at.command_V; })));
@@ -163,12 +164,12 @@ Surrogate carriage_surrogate(const Evidence& evidence, const Errors& errors, dou
             return of_run[at.row >= ticks ? at.row - ticks : 0] - of_run[at.row];
         }));
     const Quantity time_s = [](const SlidingRow& at) { return at.time_s; };
-    add_force_hats(columns, forces, Dependence::time, 6, time_s, share_passed);
+    add_force_hats(columns, forces, Dependence::time, slow_hats, time_s, share_passed);
     const Quantity drive_V = [&](const SlidingRow& at) { return effective[at.run][at.row]; };
-    add_force_hats(columns, forces, Dependence::time, 6, time_s, drive_V);
+    add_force_hats(columns, forces, Dependence::time, slow_hats, time_s, drive_V);
     const std::vector<std::vector<double>> way = ways_gone_mm(evidence);
     add_force_hats(
-        columns, forces, Dependence::way_friction, 6,
+        columns, forces, Dependence::way_friction, slow_hats,
         [&](const SlidingRow& at) { return way[at.run][at.row]; }, direction);
     add_waves_of_drive(columns, forces, share_passed, drive_V);
     surrogate.period_mm = period_mm;

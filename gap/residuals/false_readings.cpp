@@ -112,7 +112,8 @@ Remaining remaining(const Evidence& evidence, const Errors& errors, Signal senso
 
 std::optional<Signal> sensor_that_displaces_tags(const Evidence& evidence, const Errors& errors) {
     constexpr std::array sensors{Signal::encoder, Signal::hall};
-    const double log_of_odds = std::log(20.0);  // to one that the reading is false
+    constexpr double odds = 20.0;  // to one that the reading is false
+    const double log_of_odds = std::log(odds);
     std::optional<Signal> found;
     double most = log_of_odds;
     for (const Signal sensor : sensors) {

@@ -4,6 +4,7 @@
 #include "core/dead_zone.h"
 #include "core/rig.h"
 #include "gap/links/carriage_run.h"
+#include "gap/numbers.h"
 
 #include <cmath>
 #include <cstddef>
@@ -15,7 +16,7 @@ namespace {
 /// The ways, in mm, by which a carriage that stands is pushed on, of those that are longer than play
 /// explains.
 std::vector<double> ways_lost_mm(const Recording& recording, const MacroParameters& macro) {
-    constexpr double play_mm = 1.0, from_ends_mm = 1.0;
+    constexpr double play_mm = 1.0;
     constexpr double edge_V = 0.05;  // any small force holds a carriage that hardly pushes
     const double tick_s = recording.tick_s, tau_s = time_constant_s(macro, tick_s);
     std::vector<double> ways_mm;
@@ -24,7 +25,7 @@ std::vector<double> ways_lost_mm(const Recording& recording, const MacroParamete
         const double push_V = dead_zone_V(macro.dead_zone, row.macro_command_V);
         const double count = reading_count(row, macro), place_mm = macro.encoder_resolution_mm * count;
         const bool stands = push_V * last_V > 0.0 && count == last_count &&
-                            place_mm > macro.low_mm + from_ends_mm && place_mm < macro.high_mm - from_ends_mm;
+                            place_mm > macro.low_mm + margin_mm && place_mm < macro.high_mm - margin_mm;
         stood_s = stands ? stood_s + tick_s : 0.0;
         const double before_mm = stands ? lost_mm : 0.0;
         lost_mm = before_mm;

@@ -3,6 +3,7 @@
 
 #include "core/preisach.h"
 #include "core/rig.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ class LoopFollower {
     explicit LoopFollower(double stroke_mm) : stroke_mm_(stroke_mm) {}
 
     Loop next(double temperature_degC, double contraction_mm) {
-        constexpr double end_share = 1e-3, turn_degC = 0.5;
+        constexpr double end_share = next_to_none, turn_degC = 0.5;
         if (std::isnan(temperature_degC) || std::isnan(contraction_mm)) return loop_ = Loop::unknown;
         const bool is_cold = contraction_mm < end_share * stroke_mm_;
         if (is_cold || contraction_mm > (1.0 - end_share) * stroke_mm_) {

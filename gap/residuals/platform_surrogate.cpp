@@ -3,12 +3,14 @@
 #include "gap/balance/hat_functions.h"
 #include "gap/candidates/coupling.h"
 #include "gap/fit/counted_rows.h"
+#include "gap/numbers.h"
 #include "gap/residuals/surrogate.h"
 #include "gap/residuals/wire_path.h"
 #include "plant/effects/catalogue.h"
 #include "plant/platform_swing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -44,10 +46,9 @@ class PlatformColumns {
     Errors own(const Errors& errors) const { return rows_.of(errors); }
 
     Row row(const Window& window, std::size_t k) const {
-        constexpr std::size_t look_back = 20;
         const Course& course = evidence_.course(window.run);
         const Recording& recording = evidence_.recordings()[window.run];
-        const std::size_t before = k >= look_back ? k - look_back : 0;
+        const std::size_t before = k >= glance_rows ? k - glance_rows : 0;
         const double tick_s = evidence_.rig().tick_s;
         const bool has_carriage = !course.velocity_mm_per_s.empty();
         return {course.temperature_degC[k],
@@ -107,13 +108,15 @@ constexpr plant::Effect change_of_wire(void (*apply)(plant::PlantParameters& pla
 }
 constexpr plant::Effect a_degree_warmer = change_of_wire(
     [](plant::PlantParameters& plant, std::span<const double>) { plant.micro->heater.ambient_degC += 1.0; });
-constexpr plant::Effect a_hundredth_longer = change_of_wire(
-    [](plant::PlantParameters& plant, std::span<const double>) { plant.micro->stroke_factor *= 1.01; });
+constexpr plant::Effect a_hundredth_longer =
+    change_of_wire([](plant::PlantParameters& plant, std::span<const double>) {
+        plant.micro->stroke_factor *= 1.0 + hundredth;
+    });
 /// To so many hundredths of its heat.
-template <int percent>
+template <int hundredths>
 constexpr plant::Effect heated_by = change_of_wire([](plant::PlantParameters& plant,
                                                       std::span<const double>) {
-    plant.micro->heater.gain_degC_per_V *= 0.01 * percent;
+    plant.micro->heater.gain_degC_per_V *= hundredth * hundredths;
 });
 
 /// What a change does to the errors.
@@ -144,9 +147,11 @@ void add_wire_paths(std::vector<Column>& columns, const PlatformColumns& make, c
             return changed_mm[window.run][row] - wire_mm[window.run][row];
         }));
     };
-    for (const double play_mm : {0.02, 0.05, 0.1, 0.2})
+    constexpr std::array plays_mm{0.02, 0.05, 0.1, 0.2};
+    constexpr std::array lags_s{0.5, 1.0, 2.0, 4.0, 8.0};
+    for (const double play_mm : plays_mm)
         add(Dependence::turns_of_wire, [&](std::size_t run) { return behind_play(wire_mm[run], play_mm); });
-    for (const double lag_s : {0.5, 1.0, 2.0, 4.0, 8.0})
+    for (const double lag_s : lags_s)
         add(Dependence::contraction_before,
             [&](std::size_t run) { return behind_lag(wire_mm[run], lag_s, evidence.rig().tick_s); });
 }
@@ -169,31 +174,34 @@ Surrogate platform_surrogate(const Evidence& evidence, const Errors& errors) {
                 return hat(knots, j, quantity(at)) * (by != nullptr ? (*by)[window.begin + k] : 1.0);
             }));
     };
-    add_hats(Dependence::platform_place, 10, nullptr, [](const Row& at) { return at.contraction_mm; });
-    add_hats(Dependence::contraction, 8, &stroke, [](const Row& at) { return at.time_s; });
-    add_hats(Dependence::time, 6, nullptr, [](const Row& at) { return at.time_s; });
-    add_hats(Dependence::warmth_over_time, 6, &warmth, [](const Row& at) { return at.time_s; });
-    add_hats(Dependence::temperature, 8, &warmth, [](const Row& at) { return at.temperature_degC; });
+    add_hats(Dependence::platform_place, platform_hats, nullptr,
+             [](const Row& at) { return at.contraction_mm; });
+    add_hats(Dependence::contraction, wire_hats, &stroke, [](const Row& at) { return at.time_s; });
+    add_hats(Dependence::time, slow_hats, nullptr, [](const Row& at) { return at.time_s; });
+    add_hats(Dependence::warmth_over_time, slow_hats, &warmth, [](const Row& at) { return at.time_s; });
+    add_hats(Dependence::temperature, wire_hats, &warmth, [](const Row& at) { return at.temperature_degC; });
     // Where heat is far off, the wire ends up elsewhere on its loops than any slope says.
-    const auto add_heated_by = [&](const plant::Effect& change, double factor) {
+    constexpr int much_less = 75, less = 85, more = 115;
+    const auto add_heated_by = [&](const plant::Effect& change, int hundredths) {
         constexpr double about_a_degree = 0.02;
         const Errors far_off = tangent(evidence, change);
         columns.push_back(
             make.of(Dependence::temperature, [&](const Window& window, std::size_t k, const Row&) {
-                return about_a_degree / std::abs(factor - 1.0) * far_off[window.begin + k];
+                return about_a_degree / std::abs(hundredths / percent - 1.0) * far_off[window.begin + k];
             }));
     };
-    add_heated_by(heated_by<75>, 0.75);
-    add_heated_by(heated_by<85>, 0.85);
-    add_heated_by(heated_by<115>, 1.15);
-    add_hats(Dependence::command, 8, &warmth, [](const Row& at) { return at.command_V; });
-    for (const double memory_s : {0.2, 0.6, 2.0, 6.0, 20.0}) {
+    add_heated_by(heated_by<much_less>, much_less);
+    add_heated_by(heated_by<less>, less);
+    add_heated_by(heated_by<more>, more);
+    add_hats(Dependence::command, wire_hats, &warmth, [](const Row& at) { return at.command_V; });
+    constexpr std::array memories_s{0.2, 0.6, 2.0, 6.0, 20.0};
+    for (const double memory_s : memories_s) {
         const auto remembered = of_each_run(evidence, [&](std::size_t run) {
             return behind_lag(evidence.course(run).temperature_degC, memory_s, tick_s);
         });
         columns.push_back(
             make.of(Dependence::temperature_before, [&](const Window& window, std::size_t k, const Row& at) {
-                return 1e-2 * (remembered[window.run][window.first_row + k] - at.temperature_degC) *
+                return hundredth * (remembered[window.run][window.first_row + k] - at.temperature_degC) *
                        warmth[window.begin + k];
             }));
     }
@@ -206,10 +214,11 @@ Surrogate platform_surrogate(const Evidence& evidence, const Errors& errors) {
     columns.push_back(make.of(Dependence::macro_command,
                               [](const Window&, std::size_t, const Row& at) { return at.macro_command_V; }));
     columns.push_back(make.of(Dependence::acceleration, [](const Window&, std::size_t, const Row& at) {
-        return 1e-3 * at.carriage_mm_per_s2;
+        return thousandth * at.carriage_mm_per_s2;
     }));
     constexpr double damping_ratio = 0.1;
-    for (const double frequency_Hz : {8.0, 12.0, 18.0, 27.0, 40.0, 60.0})
+    constexpr std::array frequencies_Hz{8.0, 12.0, 18.0, 27.0, 40.0, 60.0};
+    for (const double frequency_Hz : frequencies_Hz)
         for (const bool of_velocity : {false, true}) {
             const auto swing =
                 plant::make_platform_swing({frequency_Hz, damping_ratio, 1.0}, evidence.rig().tick_s);
@@ -220,7 +229,7 @@ Surrogate platform_surrogate(const Evidence& evidence, const Errors& errors) {
                 make.of(Dependence::acceleration, [&](const Window&, std::size_t k, const Row& at) {
                     if (k == 0) state = {};
                     plant::advance(swing, state, {.acceleration_mm_per_s2 = at.carriage_mm_per_s2});
-                    return 1e-3 * unit * (of_velocity ? state.velocity_mm_per_s : state.position_mm);
+                    return thousandth * unit * (of_velocity ? state.velocity_mm_per_s : state.position_mm);
                 }));
         }
     return surrogate;

@@ -3,6 +3,7 @@
 
 #include "core/rig.h"
 #include "gap/links/tag_link.h"
+#include "gap/numbers.h"
 
 #include <cstddef>
 #include <optional>
@@ -14,18 +15,18 @@ namespace {
 /// What a readout of 1 s does to the turned values; empty where no near frame before and after shows the tag.
 std::optional<CornerValues> shear(const TagSighting& before, const TagSighting& tag, const TagSighting& after,
                                   const CameraParameters& camera) {
-    constexpr double late = 2.5;
+    constexpr double late = 1.0 + most_steps_apart;
     const double way_s = after.stamp_s - before.stamp_s;
     if (!(way_s > 0.0) || way_s > late / camera.frame_rate_hz) return std::nullopt;
     const CornerValues way_px = after.corners_px - before.corners_px;
     Eigen::Vector2d velocity_px_per_s = Eigen::Vector2d::Zero();
     double row = 0.0;
-    for (int c = 0; c < 4; ++c) {
-        velocity_px_per_s += 0.25 * way_px.segment<2>(2 * c) / way_s;
-        row += 0.25 * tag.corners_px[2 * c + 1];
+    for (int c = 0; c < corner_count; ++c) {
+        velocity_px_per_s += corner_share * way_px.segment<2>(2 * c) / way_s;
+        row += corner_share * tag.corners_px[2 * c + 1];
     }
     CornerValues off;
-    for (int c = 0; c < 4; ++c)
+    for (int c = 0; c < corner_count; ++c)
         off.segment<2>(2 * c) =
             velocity_px_per_s * (tag.corners_px[2 * c + 1] - row) / (camera.geometry.height_px - 1.0);
     return turned(tag, off);

@@ -7,6 +7,7 @@
 #include "gap/balance/period_search.h"
 #include "gap/evidence.h"
 #include "gap/fit/regression.h"
+#include "gap/numbers.h"
 
 #include <string_view>
 #include <vector>
@@ -55,6 +56,13 @@ enum class Dependence : std::uint8_t {
 /// The quantity's name in reports; velocity_share has the same name as velocity, and so on.
 std::string_view name_of(Dependence dependence);
 
+/// Numbers of hats over what changes slowly, over the wire's states, the platform's places, velocities or
+/// commands, and places on the rail.
+inline constexpr std::size_t slow_hats = 6, wire_hats = 8, platform_hats = 10, force_hats = 12,
+                             rail_hats = 16;
+/// Factors that make columns of one group about equally large, since a ridge restrains them together.
+inline constexpr double hundredth = 1.0 / percent, thousandth = 1e-3;
+
 struct Surrogate {
     Signal signal;
     std::vector<Column> columns;    ///< the columns' groups are values of Dependence
@@ -66,7 +74,7 @@ struct Surrogate {
     double period_mm = 0.0;  ///< period of Dependence::position_period and reading_period
     /// Groups that explain at least this fraction of what the best group explains count as equally good,
     /// since its lead may be chance. Among these, the group with the fewest columns is preferred.
-    double as_good = 0.8;
+    double as_good = usually_as_good;
 };
 
 /// Whether positions of different recordings may have different zeros: positions were recorded, not counts

@@ -79,7 +79,7 @@ CornerPattern by_image_place(const CameraGeometry& camera,
                              const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& shift) {
     return [&camera, shift](const TagSight& sight) {
         CornerValues values;
-        for (int c = 0; c < 4; ++c)
+        for (int c = 0; c < corner_count; ++c)
             values.segment<2>(2 * c) =
                 shift((sight.tag.corners_px.segment<2>(2 * c) - camera.principal_point_px) /
                       (0.5 * camera.width_px));
@@ -91,9 +91,9 @@ CornerPattern by_image_place(const CameraGeometry& camera,
 /// outwards by 1 px.
 CornerValues larger(const TagSight& sight) {
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-    for (int c = 0; c < 4; ++c) middle += 0.25 * sight.tag.corners_px.segment<2>(2 * c);
+    for (int c = 0; c < corner_count; ++c) middle += corner_share * sight.tag.corners_px.segment<2>(2 * c);
     CornerValues values;
-    for (int c = 0; c < 4; ++c)
+    for (int c = 0; c < corner_count; ++c)
         values.segment<2>(2 * c) = (sight.tag.corners_px.segment<2>(2 * c) - middle).normalized();
     return values;
 }
@@ -103,7 +103,8 @@ CornerValues larger(const TagSight& sight) {
 CornerValues across(const TagSight& sight) {
     const CornerValues motion = turned(sight.tag, CornerValues::Unit(0));
     CornerValues values;
-    for (int c = 0; c < 4; ++c) values.segment<2>(2 * c) = Eigen::Vector2d(-motion[2 * c + 1], motion[2 * c]);
+    for (int c = 0; c < corner_count; ++c)
+        values.segment<2>(2 * c) = Eigen::Vector2d(-motion[2 * c + 1], motion[2 * c]);
     return values;
 }
 
@@ -113,9 +114,9 @@ CornerValues across(const TagSight& sight) {
 /// false reading of the stages can displace them.
 void add_plate(std::vector<Column>& columns, const TagColumns& make) {
     columns.push_back(make.along(Dependence::plate_place,
-                                 [](const TagSight& sight) { return 1e-2 * sight.tag.centre_mm.x(); }));
+                                 [](const TagSight& sight) { return hundredth * sight.tag.centre_mm.x(); }));
     columns.push_back(make.of_corners(Dependence::plate_turn, [](const TagSight& sight) {
-        return CornerValues(1e-2 * sight.tag.centre_mm.x() * across(sight));
+        return CornerValues(hundredth * sight.tag.centre_mm.x() * across(sight));
     }));
     for (const Eigen::Vector2d& centre_mm : make.shared_tags())
         columns.push_back(make.of_corners(Dependence::tag_itself, [&](const TagSight& sight) {
@@ -153,17 +154,17 @@ Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors) {
     const TagColumns make(evidence);
     Surrogate surrogate{
         Signal::tag, {}, {make.along(Dependence::position, [](const TagSight&) { return 1.0; })}};
-    surrogate.as_good = 0.95;
+    surrogate.as_good = nearly_as_good;
     std::vector<Column>& columns = surrogate.columns;
     columns.push_back(make.along(Dependence::velocity,
-                                 [](const TagSight& sight) { return 1e-2 * sight.velocity_mm_per_s; }));
+                                 [](const TagSight& sight) { return hundredth * sight.velocity_mm_per_s; }));
     columns.push_back(make.along(Dependence::velocity, [](const TagSight& sight) {
-        return 1e-3 * sight.time_s * sight.velocity_mm_per_s;
+        return thousandth * sight.time_s * sight.velocity_mm_per_s;
     }));
-    add_tag_hats(columns, make, Dependence::position, 16,
+    add_tag_hats(columns, make, Dependence::position, rail_hats,
                  [](const TagSight& sight) { return sight.position_mm; });
     columns.push_back(make.along(Dependence::position_share,
-                                 [](const TagSight& sight) { return 1e-2 * sight.position_mm; }));
+                                 [](const TagSight& sight) { return hundredth * sight.position_mm; }));
     surrogate.period_mm = strongest_tag_period_mm(evidence, errors);
     if (surrogate.period_mm > 0.0)
         for (const double phase : {0.0, 0.5 * std::numbers::pi})
@@ -171,7 +172,7 @@ Surrogate tag_surrogate(const Evidence& evidence, const Errors& errors) {
                 return std::sin(2.0 * std::numbers::pi * sight.position_mm / surrogate.period_mm + phase);
             }));
     if (evidence.rig().micro)
-        add_tag_hats(columns, make, Dependence::contraction, 8,
+        add_tag_hats(columns, make, Dependence::contraction, wire_hats,
                      [](const TagSight& sight) { return sight.contraction_mm; });
     columns.push_back(make.of_corners(
         Dependence::image_share,

@@ -4,6 +4,7 @@
 #include "core/median.h"
 #include "gap/candidates/coupling.h"
 #include "gap/fit/score.h"
+#include "gap/numbers.h"
 #include "plant/effects/catalogue.h"
 
 #include <algorithm>
@@ -67,7 +68,7 @@ Hypothesis without_effect(const Hypothesis& settings) {
 Approach approach(const Evidence& evidence, std::span<const Candidate* const> candidates,
                   const Predict& predict, const Wanted& wanted, Hypothesis start, FitOptions options) {
     constexpr int most_levels = 6, iterations_a_level = 8;
-    constexpr double hardly_less = 0.5, tolerance = 0.02;
+    constexpr double hardly_less = larger_part, tolerance = 0.02;
     const Wanted leading = windows_off(evidence, wanted, predict(without_effect(start)));
     options.most_iterations = iterations_a_level;
     options.tolerance = tolerance;

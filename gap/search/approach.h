@@ -7,6 +7,7 @@
 // those with the smallest errors. The level falls with the median from one fit to the next.
 #include "gap/candidates/candidate.h"
 #include "gap/fit/fit.h"
+#include "gap/fit/score.h"
 
 #include <span>
 
@@ -23,7 +24,7 @@ struct Approach {
     /// Whether at least half of these windows are predicted nearly to their floors.
     bool is_near() const { return median_square < near_square; }
     /// The mean square below which a window is near its floor.
-    static constexpr double near_square = 2.0;
+    static constexpr double near_square = off_square;
 };
 
 /// Fits in several steps, until the median of S_w no longer halves, but at most six. A start that is near the

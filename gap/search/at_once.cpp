@@ -73,9 +73,8 @@ bool should_tags_wait(const Search& search, const Chain& chain) {
 /// the tags. A Hall reading that is explained so far lets smooth effects of the tags show.
 /// @param tags_wait  whether the tags have waited for the carriage to be explained
 void add_shapes(Search& search, Chain& chain, bool tags_wait) {
-    constexpr double half = 0.5;
     const bool are_tags_off = is_off(search, chain, Signal::tag) && !should_tags_wait(search, chain);
-    const bool are_any = add_shapes_of(search, chain, Signal::hall, are_tags_off ? half : 1.0);
+    const bool are_any = add_shapes_of(search, chain, Signal::hall, are_tags_off ? half_of_it : 1.0);
     if (should_tags_wait(search, chain)) return;
     if ((are_any || tags_wait) && is_off(search, chain, Signal::tag)) {
         Chain whole = with_everything(chain, search.tags_beside(chain.fitted));
@@ -146,13 +145,12 @@ bool explain_view_and_wire_at_once(Search& search, Chain& chain, Chain all, bool
 /// @param alone  receives the trials of the first step
 /// @return whether several effects were accepted in one step
 bool explain_hall(Search& search, Chain& chain, std::vector<Trial>& alone) {
-    constexpr double equal_share = 0.5;
     if (!is_off(search, chain, Signal::hall)) return false;
     bool are_several = false;
     const bool is_carriage_off = is_off(search, chain, Signal::encoder);
-    search.look_for_causes_in(only(Signal::hall), is_carriage_off ? equal_share : 1.0);
+    search.look_for_causes_in(only(Signal::hall), is_carriage_off ? half_of_it : 1.0);
     try {
-        const Budget::Share share(search.budget(), is_carriage_off ? equal_share : 1.0);
+        const Budget::Share share(search.budget(), is_carriage_off ? half_of_it : 1.0);
         // What many causes of the wire promise is alike, and little where a resonance is between two points
         // of its grid.
         constexpr auto all = std::numeric_limits<std::size_t>::max();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/carriage_at_once.h"
 
+#include "gap/numbers.h"
 #include "gap/search/exchange.h"
 #include "gap/search/growth.h"
 #include "gap/search/one_or_several.h"
@@ -17,14 +18,13 @@ namespace {
 /// @param aside  receives the chain with the model in that case
 /// @return whether the model brings the encoder to its floor and was accepted
 bool explain_carriage_at_once(Search& search, Chain& chain, Aside& aside, std::vector<Trial>& alone) {
-    constexpr double most_of_it = 0.9;
     if (!is_off(search, chain, Signal::encoder)) return false;
     Chain whole = in_plain_forms(search, with_together(chain, search.forces_beside(chain.fitted)));
     if (!is_off(search, whole, Signal::encoder))
         return explain_by_one_or(search, chain, std::move(whole), Signal::encoder, alone);
     if (whole.choices.size() > chain.choices.size() && is_better(search, whole, chain)) {
         aside.is_by_forces_mostly =
-            search.nearly_clears(chain.fitted, whole.fitted, most_of_it) &&
+            search.nearly_clears(chain.fitted, whole.fitted, nearly_all) &&
             std::ranges::all_of(whole.choices, [&](const Choice& choice) {
                 return !moves_carriage(*choice.candidate->effect) || search.is_force(*choice.candidate);
             });
@@ -64,14 +64,13 @@ void explain_carriage_by_one(Search& search, Chain& chain, Aside& aside, std::ve
 /// @return whether the search for more is to start from there: the encoder has come to its floor, or next to
 /// nothing is left and there was no time to try all
 bool goes_on_to_the_floor(Search& search, Chain& chain) {
-    constexpr double half = 0.5;
     constexpr std::size_t most_added = 2;
     const Growth growth{.most_effects = chain.choices.size() + most_added, .scans = false};
     bool is_cut_short = false;
-    search.look_for_causes_in(only(Signal::encoder), half);
+    search.look_for_causes_in(only(Signal::encoder), half_of_it);
     search.limit(true);
     try {
-        const Budget::Share share(search.budget(), half);
+        const Budget::Share share(search.budget(), half_of_it);
         const Candidate& last = *chain.choices.back().candidate;
         if (!is_long(chain) && moves_carriage(*last.effect) && !has_valleys(last)) {
             CrossFit closer = search.closer(search.nothing(), chain.fitted, last);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The close fit of one effect: several methods, one after the other, as long as a gap is left.
 #include "core/parallel.h"
+#include "gap/numbers.h"
 #include "gap/search/contender.h"
 #include "gap/search/search.h"
 #include "gap/starts/scatter.h"
@@ -31,9 +32,9 @@ bool moves_tags(const Candidate& candidate) {
     return part == plant::Part::encoder || plant::is_of_camera(part);
 }
 
-/// Shares of a signal's excess that have to be removed before a close fit, a simplex, and the most costly
-/// methods are tried.
-constexpr double worth_it = 0.1, worth_a_simplex = 0.5, nearly_all = 0.98;
+/// Shares of a signal's excess that have to be removed before a close fit, and more costly methods, are
+/// tried.
+constexpr double worth_it = small_part, worth_more = larger_part;
 
 }  // namespace
 
@@ -53,11 +54,10 @@ class Search::CloserFit {
           effort_at_start_(search.fitter_.evidence().effort()) {}
 
     void run() {
-        constexpr int most_rounds = 4;
         Finding& finding = *contender_.finding;
         const Sought asked = scatters_ || !is_in_valleys_ ? Sought::among_many : Sought::from_there;
         if (finding.sought >= asked || vanishes_on_a_half(contender_.trial)) return;
-        if (!clears(contender_, is_wave_ ? worth_a_simplex : worth_it)) return;
+        if (!clears(contender_, is_wave_ ? worth_more : worth_it)) return;
         bool has_gone_on = finding.sought != Sought::nowhere;
         for (int round = 0; round < most_rounds && !is_worn_out(); ++round) {
             if (!leaves_something()) return;
@@ -131,7 +131,7 @@ class Search::CloserFit {
     }
 
     bool is_worth_scattering(const Contender& best) const {
-        return is_in_valleys_ && scatters_ && is_far_off(best) && clears(best, nearly_all);
+        return is_in_valleys_ && scatters_ && is_far_off(best) && clears(best, all_but_noise);
     }
 
     /// Whether optional parameters are worth a try: a wave's harmonic once the wave is in the right local
@@ -140,16 +140,16 @@ class Search::CloserFit {
     bool is_worth_refining(const Contender& best) const {
         if (!is_off(best) || is_worn_out() || (is_wave_ && !scatters_ && is_far_off(best))) return false;
         if (is_wave_ && !scatters_) return clears(best, in_its_valley);
-        return clears(best, contender_.teachers()[index_of(Signal::encoder)] ? 0.9 : 0.5);
+        return clears(best, contender_.teachers()[index_of(Signal::encoder)] ? nearly_all : worth_more);
     }
 
     bool is_worth_a_simplex(const Contender& best) const {
         return !is_wave_ && is_off(best) && !is_worn_out() &&
-               (moves_tags(*contender_.trial.candidate) || clears(best, nearly_all));
+               (moves_tags(*contender_.trial.candidate) || clears(best, all_but_noise));
     }
 
     bool is_worth_a_simplex_with_others(const Contender& best) const {
-        return is_off(best) && !is_worn_out() && !contender_.coupled.empty() && clears(best, nearly_all);
+        return is_off(best) && !is_worn_out() && !contender_.coupled.empty() && clears(best, all_but_noise);
     }
 
     bool clears(const Contender& contender, double share) const {
@@ -180,7 +180,6 @@ void Search::fit_closer(const CrossFit& base, Contender& contender, bool scatter
 }
 
 CrossFit Search::closer(const CrossFit& base, CrossFit whole, const Candidate& last) const {
-    constexpr double share_of_effort = 0.5;
     CrossFit rest = base;
     for (std::size_t side = 0; side < 2; ++side)
         rest.of_half[side].assign(whole.of_half[side].begin(), whole.of_half[side].end() - 1);
@@ -190,7 +189,7 @@ CrossFit Search::closer(const CrossFit& base, CrossFit whole, const Candidate& l
                         &finding};
     for (std::size_t side = 0; side < 2; ++side)
         finding.fitted[side] = contender.part(contender.trial.fitted.of_half[side]);
-    fit_closer(rest, contender, true, share_of_effort);
+    fit_closer(rest, contender, true, half_of_it);
     return std::move(contender.trial.fitted);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A candidate during one step of a search.
+#include "gap/numbers.h"
 #include "gap/search/search.h"
 
 #include <cstddef>
@@ -8,10 +9,10 @@
 namespace fidservo::gap {
 
 /// Least gain of a leader (Trial::is_leader), relative to the largest gain.
-inline constexpr double share_of_gain = 0.5;
+inline constexpr double share_of_gain = larger_part;
 
 /// Mean square, floors^2, above which a window counts as far off.
-inline constexpr double far_off_square = 9.0;
+inline constexpr double far_off_square = far_off_floors * far_off_floors;
 
 /// A trial in progress.
 struct Search::Contender {

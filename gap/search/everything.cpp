@@ -8,6 +8,7 @@
 #include "gap/search/approach.h"
 #include "gap/search/worth.h"
 #include "gap/starts/shape_screening.h"
+#include "gap/starts/wave_starts.h"
 
 #include <algorithm>
 #include <array>
@@ -26,8 +27,7 @@ constexpr double expected_sizes = 3.0;
 
 Fit fitted_closely(const Evidence& evidence, const Predict& predict, const Wanted& wanted,
                    const Hypothesis& start, FitOptions options) {
-    constexpr double tolerance = 1e-6;
-    options.tolerance = tolerance;
+    options.tolerance = close_tolerance;
     options.least_improvement = hardly_worth;
     options.with_covariance = true;
     return fit(predict, evidence.windows(), wanted, start, options);
@@ -87,9 +87,9 @@ class Elimination {
 
     NeededCandidates needed(IfFar if_far, const Hypothesis& known) {
         // Most candidates that are not needed show before the values are known precisely.
-        constexpr int at_first = 4, at_last = 4;
+        constexpr int at_first_or_last = 4;
         if (!comes_near() && if_far == IfFar::gives_up) return {};
-        fit_first_half(expected_sizes, at_first);
+        fit_first_half(expected_sizes, at_first_or_last);
         find_worth();
         now_.chosen.keep(kept(now_.chosen.candidates, now_.fitted, now_.demand, true));
         if (none_but(known)) return {};
@@ -107,7 +107,7 @@ class Elimination {
             try {
                 evidence_.budget()->end_search();
                 ask_of_each();
-                test_on_other_half(at_last);
+                test_on_other_half(at_first_or_last);
             } catch (const BudgetEnded&) {
                 of_other_half_ = now_.chosen.settings;
             }
@@ -345,8 +345,6 @@ NeededCandidates needed_of_everything(const Evidence& evidence, std::span<const 
 Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate* const> candidates,
                             std::span<const plant::EffectSetting> waves, const Hypothesis& beside,
                             const Hypothesis& begun, const Wanted& wanted) {
-    // Share of the loss that a wave has to save, since errors show one of many periods by chance.
-    constexpr double worth_a_fit = 0.2;
     IncrementalPrediction incremental(evidence, beside, wanted);
     const Predict predict = std::ref(incremental);
     const Chosen others = begun_with(candidates, begun);
@@ -361,7 +359,7 @@ Hypothesis promising_shapes(const Evidence& evidence, std::span<const Candidate*
     std::ranges::move(grid_of(shaped), std::back_inserter(grid));
     const Errors errors = predict(others.settings);
     const double square = median_square_off(evidence, wanted, errors);
-    const double enough_for_a_wave = worth_a_fit * total_loss(evidence.windows(), wanted, errors);
+    const double enough_for_a_wave = worth_of_wave * total_loss(evidence.windows(), wanted, errors);
     Hypothesis best;
     for (const ScreenedShape& shape : screened_shapes(predict, evidence.windows(), wanted, others.settings,
                                                       grid, std::sqrt(1.0 + square), expected_sizes)) {

@@ -2,6 +2,7 @@
 #include "gap/search/exchange.h"
 
 #include "gap/fit/gap_size.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <optional>
@@ -53,7 +54,6 @@ bool leaves_a_gap(const Evidence& evidence, const CrossFit& fitted, const plant:
 }  // namespace
 
 bool exchange(Search& search, Chain& chain, bool changed) {
-    constexpr int most_exchanges = 4;
     int exchanges = 0;
     const auto tested = [&] { return changed ? chain.choices.size() : chain.choices.size() - 1; };
     std::size_t k = 0;
@@ -80,7 +80,7 @@ bool exchange(Search& search, Chain& chain, bool changed) {
             // The same effect again: its alternatives are now those beside the whole rest.
             if (has_leader(trials)) chain.choices[k] = choice_of(search, rest.fitted, std::move(trials));
             ++k;
-        } else if (replaces(search, trials.front(), chain, k) && exchanges++ < most_exchanges) {
+        } else if (replaces(search, trials.front(), chain, k) && exchanges++ < most_rounds) {
             start_over_with(grown(search, std::move(rest), std::move(trials)));
         } else {
             ++k;
@@ -90,7 +90,7 @@ bool exchange(Search& search, Chain& chain, bool changed) {
 }
 
 Chain without_needless(const Search& search, const Evidence& evidence, Chain chain) {
-    constexpr std::size_t most_tested = 3;
+    constexpr std::size_t most_tested = narrow_beam;
     while (chain.choices.size() > 1) {
         const Hypothesis& settings = chain.fitted.of_half[0];
         std::vector<std::pair<double, std::size_t>> order;  // by the loss without them

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gap/search/one_or_several.h"
 
+#include "gap/numbers.h"
 #include "gap/search/everything.h"
 #include "gap/search/growth.h"
 
@@ -37,7 +38,6 @@ Chain with_together(Chain chain, Search::Together together) {
 }
 
 bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal, std::vector<Trial>& alone) {
-    constexpr double nearly = 0.9;  // share of the gain of `whole`
     if (whole.choices.size() <= chain.choices.size() || !is_better(search, whole, chain)) return false;
     const auto take_whole = [&] {
         chain = std::move(whole);
@@ -64,7 +64,7 @@ bool explain_by_one_or(Search& search, Chain& chain, Chain whole, Signal signal,
             look_everywhere_again();
             return true;
         }
-        if (has_leader(trials) && trials.front().gain > nearly * gain)
+        if (has_leader(trials) && trials.front().gain > nearly_all * gain)
             grow(search, one, {.most_effects = chain.choices.size() + 1, .scans = false}, &alone);
         look_everywhere_again();
     } catch (...) {

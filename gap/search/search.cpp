@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "gap/fit/counted_rows.h"
+#include "gap/numbers.h"
 #include "gap/search/contender.h"
 #include "gap/starts/starts.h"
 
@@ -123,10 +124,9 @@ void Search::refine(const CrossFit& base, std::span<Contender> all, std::span<Co
 }
 
 void Search::fit_rivals(const CrossFit& base, std::span<Contender> leaders) const {
-    constexpr double close_behind = 0.9;
     const Contender& best = leaders.front();
     if (!meet(off(best.trial.fitted), best.teachers())) return;
-    const double bound = close_behind * best.gain();
+    const double bound = nearly_all * best.gain();
     for (Contender& rival : leaders.subspan(1))
         if (rival.gain() > bound) fit_closer(base, rival, false);
     std::ranges::stable_sort(leaders, std::greater{}, &Contender::gain);

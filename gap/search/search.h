@@ -6,6 +6,7 @@
 #include "gap/candidates/candidate.h"
 #include "gap/fit/cross_fit.h"
 #include "gap/fit/gap_size.h"
+#include "gap/numbers.h"
 #include "gap/search/everything.h"
 #include "gap/search/search_memory.h"
 
@@ -35,7 +36,7 @@ struct Trial {
 
 /// How many of the most promising candidates a step fits, and how many of these on both halves.
 struct Effort {
-    std::size_t fits = 8, leaders = 4;
+    std::size_t fits = wide_beam, leaders = beam;
     /// Whether a wave or a spring that is best and leaves a gap is also fitted from many randomly drawn start
     /// values.
     bool scatters = true;
@@ -45,9 +46,19 @@ struct Effort {
     const CrossFit* competitor = nullptr;
 };
 
-/// A wave that removes this share of a signal's excess over its floor is in the right local minimum: its
-/// phase and period are nearly right.
-inline constexpr double in_its_valley = 0.999;
+/// Share of the effort of a search that the close fit of one effect gets; and what each of two searches gets
+/// of the time, or of the effort.
+inline constexpr double usual_share_of_effort = 0.25, half_of_it = 0.5;
+
+/// Shares of a signal's excess over its floor that count as all of it but for noise; and that a wave removes
+/// once it is in the right local minimum, with its phase and period nearly right.
+inline constexpr double all_but_noise = 0.98, in_its_valley = 1.0 - next_to_none;
+
+/// R.m.s. error, in floors, from which on a signal or a window is far off.
+inline constexpr double far_off_floors = 3.0;
+
+/// Repetitions of what may improve a result further.
+inline constexpr int most_rounds = 4;
 
 struct SearchOptions {
     std::size_t windows = 48;  ///< the largest number of windows of one signal and one half that are fitted
@@ -193,13 +204,13 @@ class Search {
     bool is_no_chance(const CrossFit& without, const CrossFit& with, double times = 1.0) const;
 
     /// Whether an effect removes at least `share` of some signal's excess over its floor.
-    bool nearly_clears(const CrossFit& without, const CrossFit& with, double share = 0.98) const;
+    bool nearly_clears(const CrossFit& without, const CrossFit& with, double share = all_but_noise) const;
 
     /// Signals that are off (above) their floors.
     SignalFlags off(const CrossFit& fitted) const;
 
     /// Signals whose r.m.s. error is more than this many floors.
-    SignalFlags far_off(const CrossFit& fitted, double floors = 3.0) const;
+    SignalFlags far_off(const CrossFit& fitted, double floors = far_off_floors) const;
 
     /// The signal with the largest r.m.s. error in units of its floor; empty if all are at their floors.
     std::optional<Signal> furthest_off(const CrossFit& fitted) const;
@@ -308,7 +319,7 @@ class Search {
     /// effect that is still far from the optimum may be a compromise between two.
     /// @param scatters  whether a wave or a spring is also fitted from many randomly drawn start values
     void fit_closer(const CrossFit& base, Contender& contender, bool scatters = true,
-                    double share_of_effort = 0.25) const;
+                    double share_of_effort = usual_share_of_effort) const;
     /// If the best leader leaves a gap, also fits closely those leaders whose gain comes near its own: after
     /// coarse fits only, the true cause may rank behind an effect that imitates it. Sorts the leaders by
     /// gain.

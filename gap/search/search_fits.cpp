@@ -4,6 +4,7 @@
 #include "core/rig.h"
 #include "gap/fit/polish.h"
 #include "gap/fit/score.h"
+#include "gap/numbers.h"
 #include "gap/search/contender.h"
 #include "gap/search/search.h"
 
@@ -94,7 +95,6 @@ void Search::fit_simple_first(const CrossFit& base, std::span<Contender> contend
 }
 
 void Search::fit_first_half(const CrossFit& base, std::span<Contender* const> contenders) const {
-    constexpr double share_of_best_start = 0.5;
     struct Attempt {
         Contender* contender;
         const Promise* promise;
@@ -104,7 +104,7 @@ void Search::fit_first_half(const CrossFit& base, std::span<Contender* const> co
     for (Contender* contender : contenders)
         if (contender->finding->fitted[0].empty())
             for (const Promise& promise : contender->finding->starts)
-                if (promise.gain >= share_of_best_start * contender->promised())
+                if (promise.gain >= share_of_gain * contender->promised())
                     attempts.push_back({contender, &promise, {}});
     parallel_for(attempts.size(), [&](std::size_t k) {
         const Contender& contender = *attempts[k].contender;
@@ -190,10 +190,12 @@ void Search::put_real_ones_first(const CrossFit& base, std::span<Contender> all)
 
 Hypothesis Search::fitted_from_there(const CrossFit& base, const Contender& contender, std::size_t side,
                                      double step_scales) const {
+    constexpr int most_iterations = 40;
+    constexpr double tolerance = 1e-7;
     const CrossFit& fitted = contender.trial.fitted;
     return fitter_
         .fit_places(side, fitted.of_half[side], contender.fitted_places(base), fitted.mean_squares,
-                    {.most_iterations = 40, .tolerance = 1e-7, .step_scales = step_scales})
+                    {.most_iterations = most_iterations, .tolerance = tolerance, .step_scales = step_scales})
         .hypothesis;
 }
 
@@ -226,8 +228,10 @@ Search::Contender Search::refined(const CrossFit& base, const Contender& contend
     // Predictions of the Hall reading cost much, and their loss is smooth: some iterations are enough to find
     // the best attempt, and only that is continued.
     const bool shows_in_hall = contender.teachers()[index_of(Signal::hall)];
-    const int first_iterations = shows_in_hall ? 10 : 4;
-    const std::size_t most_fitted_on = shows_in_hall ? 1 : 3;
+    constexpr int iterations_in_hall = 10, iterations_elsewhere = 4;
+    constexpr std::size_t most_continued = narrow_beam;
+    const int first_iterations = shows_in_hall ? iterations_in_hall : iterations_elsewhere;
+    const std::size_t most_fitted_on = shows_in_hall ? 1 : most_continued;
     struct Attempt {
         std::size_t added;
         Hypothesis start;

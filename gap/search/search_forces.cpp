@@ -2,10 +2,12 @@
 // An explanation of the carriage by a model from the balance of its forces.
 #include "core/parallel.h"
 #include "core/rig.h"
+#include "gap/balance/balance_fit.h"
 #include "gap/balance/force_regression.h"
 #include "gap/evidence/halves.h"
 #include "gap/fit/polish.h"
 #include "gap/fit/score.h"
+#include "gap/numbers.h"
 #include "gap/search/everything.h"
 #include "gap/search/search.h"
 #include "gap/starts/scatter.h"
@@ -122,14 +124,13 @@ class FollowedHalf {
     /// The first of some forms of a model, fitted; or the best of those others that have the least loss
     /// before a fit, if its lead after the fit is more than chance.
     BalancedModel best_form(std::vector<BalancedModel> forms, double tail) const {
-        constexpr std::size_t most_fitted = 4;
         const double chance = std::log(static_cast<double>(forms.size()) / tail);
         const std::vector<double> unfitted = losses(forms);
         std::vector<std::size_t> order(forms.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::ranges::stable_sort(order.begin() + 1, order.end(), {},
                                  [&](std::size_t form) { return unfitted[form]; });
-        order.resize(std::min(order.size(), most_fitted));
+        order.resize(std::min(order.size(), most_fitted_forms));
         std::vector<double> left(order.size());
         parallel_for(order.size(), [&](std::size_t k) {
             Fit closer = fitted(forms[order[k]].settings);
@@ -201,8 +202,6 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
                 settings[side].begin() + static_cast<std::ptrdiff_t>(base.of_half[side].size()));
         return settings;
     };
-    constexpr int most_rounds = 4;
-    constexpr double share_explained = 0.9, most_of_time = 0.5;
     constexpr std::size_t most_drawn = 3;  // effects; with more, a generation has too few draws
     const Evidence& evidence = fitter_.evidence();
     std::vector<const Candidate*> all;
@@ -217,7 +216,7 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
         second(evidence, base.of_half[1], wanted[1]);
     std::optional<Together> best;
     try {
-        const Budget::Share share(*evidence.budget(), most_of_time);
+        const Budget::Share share(*evidence.budget(), half_of_it);
         BalancedModel model = models[place_of_least(first.losses(models))];
         best = together(base.of_half,
                         {model.candidates, {model.settings, model.settings}, first.worth(model.settings)});
@@ -245,7 +244,7 @@ Search::Together Search::balanced_beside(const CrossFit& base) const {
             needed_of_everything(evidence, smooth_beside(model, candidates_, evidence.rig()), base.of_half,
                                  settings_of_model(*best)[0], {}, wanted, IfFar::goes_on));
         // Many effects that leave most of the gap stand in for something else.
-        const bool explains = nearly_clears(base, whole.fitted, share_explained);
+        const bool explains = nearly_clears(base, whole.fitted, nearly_all);
         return explains && whole.fitted.loss < best->fitted.loss ? whole : *best;
     } catch (const ShareEnded&) {
     } catch (const BudgetEnded&) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What an explanation leaves, and whether an effect that was added to it is to be accepted.
 #include "gap/fit/gap_size.h"
+#include "gap/numbers.h"
 #include "gap/search/contender.h"
 #include "gap/search/search.h"
 
@@ -18,7 +19,7 @@ constexpr double effect_tie_significance = 2.0;
 
 /// Share of the excess that a signal has before any effect: an effect has to remove as much if it does not
 /// bring the signal to its floor.
-constexpr double least_share_of_first = 1e-3;
+constexpr double least_share_of_first = next_to_none;
 
 SignalFlags above(const SignalExcess& excess, double bound) {
     SignalFlags flags{};
@@ -65,12 +66,11 @@ bool Search::is_real(const CrossFit& without, const CrossFit& with) const {
 bool Search::clears_what_is_far_off(const CrossFit& without, const CrossFit& with) const {
     // For tags a small excess may remain, since a rolling shutter leaves some shapes off when the stage
     // shakes. Unlike the carriage's motion, shapes do not depend on stick-slip.
-    constexpr double next_to_nothing = 1e-3;
     const SignalExcess before = fitter_.excess(without.mean_squares),
                        after = fitter_.excess(with.mean_squares);
     for (std::size_t s = 0; s < signal_count; ++s) {
         const auto signal = static_cast<Signal>(s);
-        const double most_left = signal == Signal::tag ? next_to_nothing * before[s] : 0.0;
+        const double most_left = signal == Signal::tag ? least_share_of_first * before[s] : 0.0;
         if (before[s] > 0.0 && after[s] <= most_left && is_far_off(without, signal)) return true;
     }
     return false;
@@ -115,7 +115,7 @@ bool Search::clears_a_signal(const CrossFit& without, const CrossFit& with, doub
                              double share_of_first) const {
     const SignalExcess before = fitter_.excess(without.mean_squares),
                        after = fitter_.excess(with.mean_squares);
-    constexpr double near_floor = 0.5, hardly_any = 0.05;
+    constexpr double near_floor = 0.5;
     for (std::size_t s = 0; s < signal_count; ++s) {
         const bool is_as_good_as_cleared = after[s] < near_floor && after[s] <= hardly_any * before[s];
         if (after[s] < (1.0 - share) * before[s] &&

@@ -31,7 +31,6 @@ void Search::fit_plain_form(const CrossFit& base, const Contender& richer, Conte
 }
 
 void Search::fit_rich_form(const CrossFit& base, const Contender& plain, Contender& richer) const {
-    constexpr int first_iterations = 6;
     if (plain.coupled != richer.coupled) return;
     const CrossFit& known = plain.trial.fitted;
     const Places places = richer.fitted_places(base);
@@ -43,7 +42,7 @@ void Search::fit_rich_form(const CrossFit& base, const Contender& plain, Contend
     if (attempts.empty()) return;
     parallel_for(attempts.size(), [&](std::size_t k) {
         attempts[k] = fitter_.fit_places(0, attempts[k].hypothesis, places, known.mean_squares,
-                                         {.most_iterations = first_iterations});
+                                         {.most_iterations = few_iterations});
     });
     const Hypothesis& start = std::ranges::min_element(attempts, {}, &Fit::loss)->hypothesis;
     Finding finding = *richer.finding;

@@ -2,6 +2,7 @@
 #include "gap/search/selection.h"
 
 #include "gap/fit/incremental_prediction.h"
+#include "gap/numbers.h"
 #include "gap/search/at_once.h"
 #include "gap/search/exchange.h"
 #include "gap/search/growth.h"
@@ -18,9 +19,9 @@ namespace {
 /// Whether two effects explain well enough what no single effect was accepted for: two wrong ones fit most
 /// data a little, and a little more than by chance.
 bool explains(const Search& search, const CrossFit& without, const CrossFit& with) {
-    constexpr double most = 0.9, times_chance = 2.0;
-    return search.nearly_clears(without, with) ||
-           (search.nearly_clears(without, with, most) && search.is_no_chance(without, with, times_chance));
+    constexpr double times_chance = 2.0;
+    return search.nearly_clears(without, with) || (search.nearly_clears(without, with, nearly_all) &&
+                                                   search.is_no_chance(without, with, times_chance));
 }
 
 /// Where signals stay off their floors, the effects accepted for them one after the other may not lead to the
@@ -29,14 +30,15 @@ bool explains(const Search& search, const CrossFit& without, const CrossFit& wit
 /// tried as the first of a pair, too.
 /// @return whether the chain was changed
 bool begin_otherwise(Search& search, Chain& chain, std::size_t most_effects) {
-    constexpr Effort effort{.fits = 3, .leaders = 1};
+    constexpr Effort effort{.fits = narrow_beam, .leaders = 1};
     const SignalFlags off = search.off(chain.fitted);
     if (off == SignalFlags{}) return false;
     const Chain rest = rest_of(search, chain, off);
     if (!has_room_for_two(rest, most_effects)) return false;
     const bool from_nothing = chain.choices.size() == rest.choices.size();
     bool changed = false;
-    const std::size_t most_first = from_nothing ? 6 : 3;
+    constexpr std::size_t most_from_nothing = 6, most_otherwise = narrow_beam;
+    const std::size_t most_first = from_nothing ? most_from_nothing : most_otherwise;
     std::vector<Trial> singles = search.try_all(rest.fitted, rest.candidates(), {.scatters = false});
     if (!from_nothing && has_leader(singles)) {
         Chain one = grown(search, rest, singles);
@@ -134,11 +136,10 @@ CrossFit first_of(const Search& search, const Chain& chain, std::size_t count) {
 }  // namespace
 
 Fit fit_to_all(const Evidence& evidence, const CrossFit& cross) {
-    constexpr int most_iterations = 6;  // few, since it starts from a fit to one half
     const Wanted wanted = everything(evidence);
     IncrementalPrediction predict(evidence, {}, wanted);
     return fit(std::ref(predict), evidence.windows(), wanted, cross.of_half[0],
-               {.most_iterations = most_iterations, .tolerance = 1e-6, .with_covariance = true});
+               {.most_iterations = few_iterations, .tolerance = close_tolerance, .with_covariance = true});
 }
 
 Selection select(const Evidence& evidence, const std::vector<Candidate>& candidates,

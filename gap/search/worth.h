@@ -14,6 +14,7 @@
 // remaining effects are free, since they may compensate what is left out.
 #include "gap/candidates/candidate.h"
 #include "gap/fit/fit.h"
+#include "gap/numbers.h"
 
 #include <array>
 #include <cstddef>
@@ -27,7 +28,7 @@ namespace fidservo::gap {
 inline constexpr double least_worth = 4.0;
 
 /// A change of the loss that is negligible relative to least_worth.
-inline constexpr double hardly_worth = 0.01 * least_worth;
+inline constexpr double hardly_worth = least_worth / percent;
 
 /// The loss that a candidate has to save to be kept: least_worth times a factor. A discrepancy is correlated
 /// within a recording, so that its windows are worth fewer independent ones (gap/fit/predictive_density.h);

@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "gap/fit/score.h"
 #include "gap/fit/slopes.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,9 +84,8 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
                                     const Candidate& candidate) {
     constexpr double probe = 0.25;  // share of the typical size with which responses are computed
     constexpr double hopeless_gain = 0.4 * least_gain;
-    constexpr double as_expected = 0.9;  // share of the expected gain at which errors do change linearly
     constexpr double shorter = 0.4, further = 2.5, furthest = 100.0;
-    constexpr std::size_t most_places = 8, most_starts = 4;
+    constexpr std::size_t most_places = wide_beam;
     const auto width = static_cast<Eigen::Index>(candidate.sizes.size());
     const auto moving = beside.linear.size();
     const Eigen::VectorXd unmoved = Eigen::VectorXd::Zero(moving);
@@ -158,7 +158,7 @@ std::vector<Promise> at_first_sight(const Predict& predict, std::span<const Wind
         // Other values of its sizes may suit another shape.
         const bool has_no_shape = candidate.shapes.size() == 1;
         const bool is_linear =
-            has_no_shape && place->expected_gain > 0.0 && ratio > as_expected && ratio < 1.0 / as_expected;
+            has_no_shape && place->expected_gain > 0.0 && ratio > nearly_all && ratio < 1.0 / nearly_all;
         if (!is_linear) {
             improves(part_of_steps(*place, shorter));
             // Far from the optimum the linear step is much too short: lengthen it as long as that helps.

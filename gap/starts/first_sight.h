@@ -6,6 +6,7 @@
 #include "gap/candidates/coupling.h"
 #include "gap/candidates/scaled_parameters.h"
 #include "gap/fit/fit.h"
+#include "gap/numbers.h"
 #include "gap/starts/linear_errors.h"
 
 #include <vector>
@@ -35,6 +36,9 @@ Surroundings surroundings(const Predict& predict, std::span<const Window> window
 /// @param shape  the point: values of all parameters
 plant::EffectSetting sized(const Candidate& candidate, const std::vector<double>& shape,
                            const Eigen::VectorXd& shares);
+
+/// Start values from which a fit is begun.
+inline constexpr std::size_t most_starts = beam;
 
 struct Promise {
     Hypothesis start;  ///< the settings that may be refitted, then the candidate

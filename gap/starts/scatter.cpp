@@ -55,11 +55,10 @@ class DrawnForce {
         : start_(start), wave_(wave_of(*start.effect)), refinements_(refinements_of(*start.effect)) {}
 
     Moves deviations() const {
-        constexpr double size_shares = 0.35, phase_rad = 0.35, waves_per_mm = 0.175 / 200.0,
-                         harmonic_shares = 0.105, centre_mm = 20.0, hardening_shares = 0.5,
+        constexpr double move = 0.35, harmonic_shares = 0.105, centre_mm = 20.0, hardening_shares = 0.5,
                          least_hardening = 0.5;
         Moves deviations =
-            wave_ ? Moves{size_shares, waves_per_mm, phase_rad} : Moves{size_shares, centre_mm};
+            wave_ ? Moves{move, 0.5 * move / (2.0 * rail_middle_mm), move} : Moves{move, centre_mm};
         for (const Refinement& refinement : refinements_)
             deviations.push_back(wave_ ? harmonic_shares
                                        : hardening_shares *
@@ -83,7 +82,7 @@ class DrawnForce {
             there.values[phase] =
                 phase_in_step(start_.values[phase] + moves[next++], before_mm, there.values[period]);
         } else {
-            constexpr std::size_t stiffness = 0, centre = 1;
+            enum : std::size_t { stiffness, centre };
             set(stiffness, start_.values[stiffness] * std::exp(moves[next++]));
             set(centre, start_.values[centre] + moves[next++]);
         }

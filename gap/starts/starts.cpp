@@ -61,11 +61,10 @@ std::vector<Promise> scanned(const Predict& predict, std::span<const Window> win
 
 /// The best of both, without those that gain nothing.
 std::vector<Promise> best_of(std::vector<Promise> starts, std::vector<Promise> more) {
-    constexpr std::size_t most = 4;
     std::ranges::move(more, std::back_inserter(starts));
     std::ranges::sort(starts, std::greater{}, &Promise::gain);
     std::erase_if(starts, [](const Promise& start) { return start.gain <= 0.0; });
-    if (starts.size() > most) starts.resize(most);
+    if (starts.size() > most_starts) starts.resize(most_starts);
     return starts;
 }
 

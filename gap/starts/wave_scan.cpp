@@ -5,6 +5,7 @@
 #include "core/parallel.h"
 #include "gap/candidates/wave.h"
 #include "gap/fit/score.h"
+#include "gap/numbers.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +20,7 @@ namespace {
 
 /// Step of the inverse period: it turns the phase by half a turn at the rail's ends, and by much less over
 /// the usual travel about the middle.
-constexpr double step_per_mm = 0.005;
+constexpr double step_per_mm = 0.5 / rail_middle_mm;
 constexpr double longest_wave_mm = 25.0;
 constexpr int phases = 6;
 constexpr double step_rad = 2.0 * std::numbers::pi / phases;
@@ -57,7 +58,7 @@ std::vector<Scanned> best_valleys(std::span<const Scanned> sorted, std::size_t m
     std::vector<Scanned> best;
     for (const Scanned& wave : sorted) {
         const bool is_beside_another = std::ranges::any_of(best, [&](const Scanned& other) {
-            return std::abs(other.per_mm - wave.per_mm) < 1.5 * step_per_mm;
+            return std::abs(other.per_mm - wave.per_mm) < most_steps_apart * step_per_mm;
         });
         if (!is_beside_another) best.push_back(wave);
         if (best.size() == most) break;
@@ -68,13 +69,12 @@ std::vector<Scanned> best_valleys(std::span<const Scanned> sorted, std::size_t m
 /// The windows asked for, ordered such that the first few are already spread over all of them: by golden
 /// sections of those left.
 std::vector<std::size_t> spread_over_windows(const Wanted& asked) {
-    constexpr double golden = 0.61803398875;
     std::vector<std::size_t> rest, order;
     for (std::size_t w = 0; w < asked.size(); ++w)
         if (asked[w] != 0) rest.push_back(w);
     double share = 0.0;
     while (!rest.empty()) {
-        share = std::fmod(share + golden, 1.0);
+        share = std::fmod(share + golden_section, 1.0);
         const auto at = rest.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(rest.size()));
         order.push_back(*at);
         rest.erase(at);

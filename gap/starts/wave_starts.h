@@ -7,6 +7,9 @@
 
 namespace fidservo::gap {
 
+/// Share of the loss that a wave has to save, since errors show one of many periods by chance.
+inline constexpr double worth_of_wave = 0.2;
+
 /// Start values of a candidate that has a wave, in place of at_first_sight: waves with the periods that
 /// errors show (gap/balance/period_search.h), sorted by the loss that they promise to save.
 /// @param balanced  settings of waves that balance the forces (gap/balance/balanced_waves.h), of this

@@ -2,6 +2,7 @@
 #include "gap/verdict/model_weights.h"
 
 #include "core/random.h"
+#include "gap/fit/gap_size.h"
 #include "gap/fit/score.h"
 
 #include <algorithm>
@@ -85,13 +86,12 @@ std::vector<double> spread_evenly(double loss, std::size_t recordings) {
 }  // namespace
 
 std::vector<double> model_weights(std::span<const std::vector<double>> log_densities) {
-    constexpr int draws = 400;
     std::vector<double> weights(log_densities.size(), 0.0);
     if (log_densities.empty() || log_densities.front().empty()) return weights;
     const std::size_t recordings = log_densities.front().size();
     NoiseStream random(1, "Bayesian bootstrap over recordings");
     std::vector<double> shares(recordings), sums(log_densities.size());
-    for (int draw = 0; draw < draws; ++draw) {
+    for (int draw = 0; draw < bootstrap_draws; ++draw) {
         double whole = 0.0;
         for (double& share : shares) whole += share = -std::log1p(-random.uniform());
         for (std::size_t k = 0; k < sums.size(); ++k) {
@@ -102,7 +102,7 @@ std::vector<double> model_weights(std::span<const std::vector<double>> log_densi
         const double largest = *std::ranges::max_element(sums);
         double normalisation = 0.0;
         for (double& sum : sums) normalisation += sum = std::exp(sum - largest);
-        for (std::size_t k = 0; k < sums.size(); ++k) weights[k] += sums[k] / normalisation / draws;
+        for (std::size_t k = 0; k < sums.size(); ++k) weights[k] += sums[k] / normalisation / bootstrap_draws;
     }
     return weights;
 }

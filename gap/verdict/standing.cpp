@@ -2,6 +2,7 @@
 #include "gap/verdict/standing.h"
 
 #include "gap/fit/gap_size.h"
+#include "gap/numbers.h"
 #include "gap/residuals/accusation.h"
 #include "gap/verdict/calibration.h"
 
@@ -107,14 +108,14 @@ bool shows_in_view(const plant::Effect& effect) {
 }
 
 Features features_of(const Support& support) {
-    constexpr double most_logit = 7.0, least_share = 1e-4, least_apart = 1e-3, least_floors_off = 0.15,
-                     most_floors_off = 3.0;
+    constexpr double most_logit = 7.0, least_share = 1e-4, least_apart = next_to_none,
+                     least_floors_off = 0.15, most_floors_off = 3.0;
     const auto log_discrepancy = [&](double floors) {
         const double discrepancy = std::sqrt(std::max(0.0, std::pow(floors, 2) - 1.0));
         return -std::log(std::clamp(discrepancy, least_floors_off, most_floors_off));
     };
-    const double odds = support.weight / std::max(1.0 - support.weight, 1e-300);
-    return {std::clamp(std::log(std::max(odds, 1e-300)), -most_logit, most_logit),
+    const double odds = support.weight / std::max(1.0 - support.weight, least_positive);
+    return {std::clamp(std::log(std::max(odds, least_positive)), -most_logit, most_logit),
             log_discrepancy(support.gap_after),
             log_discrepancy(support.left_floors),
             std::log(support.without_floors / support.left_floors),

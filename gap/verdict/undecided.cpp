@@ -8,9 +8,12 @@
 #include "gap/evidence/plate_tag.h"
 #include "gap/fit/gap_size.h"
 #include "gap/links/carriage_run.h"
+#include "gap/numbers.h"
+#include "gap/search/worth.h"
 #include "plant/effects/catalogue.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -63,8 +66,7 @@ void add_useless_predictions(const Evidence& evidence, const Selection& selectio
             standing += motion_square(evidence, window).value_or(0.0);
             count += 1.0;
         }
-        constexpr double off_square = 4.0;  // floors^2 above which a signal that rests is off, too
-        if (count == 0.0 || predicted < standing || predicted < off_square * count) continue;
+        if (count == 0.0 || predicted < standing || predicted < clearly_off_square * count) continue;
         const double unit = evidence.floor(signal);
         lines.push_back(fmt::format(
             "{}: the simulator predicts it worse ({:.3g} {} r.m.s.) than \"it stays where it is\" would "
@@ -131,10 +133,9 @@ double loss_of(const Evidence& evidence, const GlanceAtWindows& look, const Want
 }
 
 bool would_show(const Evidence& evidence, const Candidate& candidate, const GlanceAtWindows& look) {
-    constexpr double least_loss = 4.0;
     const Wanted wanted = only_of(evidence.windows(), look.wanted, reached_by({{candidate.effect, {}}}));
     return std::ranges::any_of(candidate.shapes, [&](const std::vector<double>& shape) {
-        return loss_of(evidence, look, wanted, {candidate.effect, shape}) > least_loss;
+        return loss_of(evidence, look, wanted, {candidate.effect, shape}) > least_worth;
     });
 }
 
@@ -175,7 +176,8 @@ std::vector<const Candidate*> hidden_candidates(const Evidence& evidence, std::s
     std::vector<const Candidate*> hidden;
     for (const Candidate& candidate : tried)
         if (!candidate.is_limit) hidden.push_back(&candidate);
-    for (const std::size_t windows_of_a_signal : {4U, 12U, 48U}) {  // most show in the first few
+    constexpr std::array<std::size_t, 3> glances{4, 12, 48};
+    for (const std::size_t windows_of_a_signal : glances) {  // most show in the first few
         const GlanceAtWindows look = look_at(evidence, selection.steps.front(), windows_of_a_signal);
         std::vector<std::uint8_t> shows(hidden.size());
         parallel_for(hidden.size(),
@@ -205,7 +207,7 @@ std::vector<std::string> undecided(const Evidence& evidence, std::span<const Can
 }
 
 std::string what_is_wanting(const Evidence& evidence, const Selection& selection) {
-    constexpr double least_removed = 0.5;
+    constexpr double least_removed = larger_part;
     constexpr std::ptrdiff_t few_windows = 20;
     const CrossFit& nothing = selection.steps.front();
     const std::vector<SignalGap> gaps = signal_gaps(evidence, nothing.mean_squares, nothing.mean_squares);
@@ -235,7 +237,7 @@ std::string what_is_wanting(const Evidence& evidence, const Selection& selection
     return fmt::format(
         "{} ({}) would remove {:.0f} % of the gap, but {} windows of the {} are too few, or too few of them "
         "say so, to be sure",
-        one.effect->name, fmt::join(values, "; "), 100.0 * most, windows, name_of(furthest));
+        one.effect->name, fmt::join(values, "; "), percent * most, windows, name_of(furthest));
 }
 
 }  // namespace fidservo::gap

@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "gap/evidence/halves.h"
+#include "gap/evidence/windows.h"
 
 #include <algorithm>
 #include <array>
@@ -31,14 +32,13 @@ double spread_of(const Window& window, const std::array<Errors, offsets_count.si
 
 /// Whether tags are seen while a window of the encoder lasts.
 bool are_at_once(const Window& encoder, const Window& tags) {
-    constexpr TimeNs longest_ns = 1'000'000'000;
-    return encoder.run == tags.run && std::abs(encoder.start_ns - tags.start_ns) < longest_ns;
+    return encoder.run == tags.run && seconds(std::abs(encoder.start_ns - tags.start_ns)) < window_s;
 }
 
 }  // namespace
 
 std::vector<bool> unpredictable_windows(const Evidence& evidence, const CrossFit& fitted) {
-    constexpr double least_spread = 2.0, as_large = 4.0, floor_square = 1.1;
+    constexpr double least_spread = off_square, as_large = 4.0;
     const std::vector<Window>& windows = evidence.windows();
     const std::vector<std::uint8_t> half = halves(evidence);
     std::vector<bool> found(windows.size(), false);
