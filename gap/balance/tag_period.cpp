@@ -37,7 +37,7 @@ double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors, W
     const auto [low, high] = std::ranges::minmax(places);
     const double step_per_mm = turns_apart / std::max(longest_period_mm, high - low);
     const auto taken = [&](double per_mm) {
-        // Of sine, cosine and a constant.
+        constexpr int unknowns = Eigen::Matrix3d::RowsAtCompileTime;  // sine, cosine and a constant
         Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * next_to_nothing;
         Eigen::Vector3d right = Eigen::Vector3d::Zero();
         std::size_t at = 0;
@@ -54,9 +54,9 @@ double strongest_tag_period_mm(const Evidence& evidence, const Errors& errors, W
             if (count <= 2.0) continue;
             const Eigen::Vector4d sum = own.col(2);
             if (wave == WaveOf::carriage) own -= sum * sum.transpose() / count;
-            const double weight = 1.0 / (count + own(3, 3));
-            normal += weight * own.topLeftCorner<3, 3>();
-            right += weight * own.topRightCorner<3, 1>();
+            const double weight = 1.0 / (count + own.bottomRightCorner<1, 1>().value());
+            normal += weight * own.topLeftCorner<unknowns, unknowns>();
+            right += weight * own.topRightCorner<unknowns, 1>();
         }
         return right.dot(normal.inverse() * right);
     };

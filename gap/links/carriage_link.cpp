@@ -136,6 +136,9 @@ class Lead {
         StartCorrection done;
     };
 
+    /// A correction that changes less ends them.
+    static constexpr double enough_count = 0.01;
+
     bool is_linear() const {
         const plant::MacroAxis& axis = model_.axis;
         return axis.has_closed_form && !axis.parameters.formulas.any() && model_.encoder.is_straight();
@@ -143,7 +146,6 @@ class Lead {
 
     Way corrected(const WindowRows& window, const plant::MacroAxisState& carried) {
         constexpr int most_corrections = 3;
-        constexpr double enough_count = 0.01;
         const double ticks_per_tau = model_.axis.parameters.time_constant_s / run_.tick_s;
         StartCorrection done;
         Way way{play(window, carried, done, motion_), std::numeric_limits<double>::infinity(), done};
@@ -169,7 +171,7 @@ class Lead {
     /// that was guessed too large leads to another motion altogether.
     Way corrected_by_trials(const WindowRows& window, const plant::MacroAxisState& carried, Way way) {
         constexpr int most_rounds = 6, most_halvings = 5;
-        constexpr double enough_count = 0.01, trial_count = 0.02;
+        constexpr double trial_count = 0.02;
         for (int round = 0; round < most_rounds; ++round) {
             (void)play(window, carried, way.done, motion_);
             const std::vector<double> errors = errors_;
