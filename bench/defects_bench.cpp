@@ -97,7 +97,7 @@ struct SiteOutcome {
     int checks = 0, failed = 0, undecided = 0;
 };
 
-/// The rows of a site, seen from every view of the recipe.
+/// Inspects a site from every view of the recipe, and counts its checks in the outcome.
 SiteOutcome inspect_site(const Recipe& recipe, const CameraParameters& camera, const plant::PlateView& view,
                          const Site& site, const DrawNominal& draw_nominal, NoiseStream& random,
                          SiteOutcome outcome) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is given as an array: a list or a series of pandas, too, whatever NumPy makes one of.
+// Arrays that a caller passes: any object that NumPy can convert, such as a list or a series of pandas.
 #include "python/bindings.h"
 
 namespace fidservo::python {

@@ -24,7 +24,8 @@ void bind_errors(py::module_& module) {
         "The time, or the effort, was over before anything was predicted.";
 }
 
-/// Names say that they are of the package, whose users never see the compiled part.
+/// Sets the module name of all classes to that of the package, since its users never import the compiled
+/// module.
 void name_after_package(py::module_& module) {
     for (const auto item : py::dict(module.attr("__dict__")))
         if (py::isinstance<py::type>(item.second)) item.second.attr("__module__") = "fidservo";

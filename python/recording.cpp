@@ -32,7 +32,8 @@ struct HeldDetections {
 
     const std::vector<TagDetection>& tags() const { return held->recording.detections; }
     py::ssize_t size() const { return static_cast<py::ssize_t>(tags().size()); }
-    /// A field of the first one; of none, of a detection that is never looked at.
+    /// The first detection, of which fields are referred to; without detections, a default one that is never
+    /// read.
     const TagDetection& first() const {
         static const TagDetection none;
         return tags().empty() ? none : tags().front();

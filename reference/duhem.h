@@ -10,7 +10,7 @@
 // branch's kinetics (as Liang and Rogers have it for shape-memory alloys). In both the ratio on the right
 // stays constant, which gives them in closed form. Its minor loops neither close nor are congruent, unlike
 // those of Preisach's model. Source: Visintin, "Differential Models of Hysteresis", Springer, 1994, chapter
-// V; Liang, Rogers, "One- dimensional thermomechanical constitutive relations for shape memory materials", J.
+// V; Liang, Rogers, "One-dimensional thermomechanical constitutive relations for shape memory materials", J.
 // Intell. Mater. Syst. Struct. 1 (1990).
 #include "core/preisach.h"
 

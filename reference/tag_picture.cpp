@@ -52,8 +52,9 @@ void add_shares(Shares& shares, int first, double left_px, double cell_px, doubl
     }
 }
 
-/// A disc of a standard deviation along each axis, half its radius; that of the pixels, by whose squares the
-/// kernel covers it in 8 x 8 parts each, is taken off.
+/// The kernel of a blur by a disc with a given standard deviation along each axis, which is half its radius.
+/// Coverages are computed in 8 x 8 parts of each pixel, which adds the variance 1/12 px^2 of a pixel; it is
+/// subtracted from that of the disc.
 cv::Mat disc(double deviation_px) {
     constexpr int parts = 8;
     constexpr double pixel_px2 = 1.0 / 12.0;

@@ -61,7 +61,8 @@ gap::Support support_of(const Json& json, double gap_after) {
             .is_contested = json.at("contested")};
 }
 
-/// Without those that have a rival, with which they share their probability (gap/verdict/standing.h).
+/// The names that the diagnoses of a self-check gave, without those that share their probability with a rival
+/// (gap/verdict/standing.h).
 std::vector<Name> names_of(const Json& self_check) {
     std::vector<Name> names;
     for (const Json& one : self_check.at("cases"))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What other people's methods make of the same frames.
+// Estimators of other projects and of the literature, for a comparison on the same frames.
 #include "tests/tag_precision/precision_trials.h"
 
 #include <memory>

@@ -147,7 +147,8 @@ bool fits(const std::optional<CameraCalibration>& tried, const CameraCalibration
     return tried && tried->rms_px <= limits.most_rms_px && explains_better(*tried, asked);
 }
 
-/// The gap between neighbouring tags as a share of their side, of a target whose tags are as large.
+/// The gap between neighbouring tags as a fraction of their side, if the sides of all tags are `tag_scale`
+/// times the stated ones.
 std::optional<double> spacing_of(const std::vector<PlateTag>& target, double tag_scale) {
     double nearest_mm = std::numeric_limits<double>::infinity();
     for (const PlateTag& tag : target)

@@ -119,7 +119,7 @@ double end_error_V(const CurveFit& cubic, double at_mm) {
 struct Cover {
     double low_mm, high_mm, travel_low_mm, travel_high_mm;
 
-    /// The references leave out a tenth of the travel at an end, at least.
+    /// Whether the references leave out at least a tenth of the travel at either end.
     bool misses_an_end() const {
         const double tenth_mm = 0.1 * (travel_high_mm - travel_low_mm);
         return low_mm > travel_low_mm + tenth_mm || high_mm < travel_high_mm - tenth_mm;

@@ -188,7 +188,8 @@ void give_dead_zone(MacroIdentification& result, const MacroFit& fit, const Macr
     result.threshold_assumed = threshold.assumed && result.zone_offset_V.has_value();
 }
 
-/// The carriage was driven to one side only, by more than the command: only a difference is fixed.
+/// Why offset and friction are refused if the carriage was driven to one side only: only their difference is
+/// determined.
 std::string net_offset_refusal(const MacroKnowledge& known) {
     return fmt::format(
         "the carriage was driven to one side only: drive offset less friction is {} V, each alone "

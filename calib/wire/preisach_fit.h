@@ -2,8 +2,8 @@
 #pragma once
 // A Preisach model from any excitation: the non-negative density that explains the output best.
 //
-//     output = offset + direction f,     minimise  |output - offset - direction A w|^2 + penalty |D w|^2,  w
-//     >= 0
+//     output = offset + direction f,     minimise  |output - offset - direction A w|^2 + penalty |D w|^2
+//     over w >= 0
 //
 // with w the weights of the cells, A the fraction of each cell that the input has switched on
 // (calib/wire/preisach_grid.h), and D the differences of neighbouring cells, which smooth the density where

@@ -168,7 +168,7 @@ class Diagnosis:
 
     @classmethod
     def from_json(cls, text: str) -> "Diagnosis":
-        """Of the text that `fidservo diagnose --json` writes. Numbers that are null are NaN. Raises ValueError."""
+        """Reads the text that `fidservo diagnose --json` writes; null becomes NaN. Raises ValueError."""
         content = json.loads(text)
         if not isinstance(content, dict) or content.get("format") != "fidservo-diagnosis/1":
             raise ValueError("format: must be fidservo-diagnosis/1")

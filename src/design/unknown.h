@@ -23,12 +23,13 @@ struct Unknown {
 /// (1.25 floors).
 std::optional<Unknown> unknown_of(const gap::Diagnosis& diagnosis);
 
-/// Information that a recording brings of any function of the quantities: each one's range on the rig in
-/// twelve bins, a value for each bin that is expected to be as large as what is left, a window of 1 s an
-/// observation of it,
+/// Expected information, nats, of a recording on an unknown function of a quantity: the quantity's range on
+/// the rig is divided into twelve bins; the function has an independent value in each, with a variance of
+/// `excess`, and a window of 1 s is one observation of it with the variance 1, so that
 ///     I = 1/2 sum over bins of log(1 + excess t_b / 1 s),     t_b the time spent in the bin.
-/// It is largest where all bins are visited alike. Of several quantities the least counts.
-/// @param evidence  of the one recording
+/// It is largest if the same time is spent in all bins. If there are several quantities, the smallest value
+/// is returned.
+/// @param evidence  of this recording alone
 double information(const Unknown& unknown, const gap::Evidence& evidence);
 
 }  // namespace fidservo::design

@@ -55,7 +55,7 @@ TEST(DamageVariations, FilesCutShortOrWithAWrongByte_AreNeverTakenForWhole) {
     expect_right_or_refused("damage: a file cut short or a wrong byte, by format", 400, judged_damage);
 }
 
-/// A lossy file of one colour is so short that its end matters.
+/// A compressed image of a single colour is so short that a missing end is easily overlooked.
 TEST(Damage, FlatImagesCutShort_AreRefused) {
     const TemporaryFolder folder;
     for (const Format& format : formats) {

@@ -64,9 +64,9 @@ struct StripFit {
 };
 
 /// Maximum likelihood of two edges at once,
-///     g(t) = L(t) (1 - contrast (Phi((t - a) / sigma) - Phi((t - b) / sigma))),   a, b = centre -+ width /
-///     2,
-/// L linear in t. Holds for strips thinner than the blur too, where the prior of contrast and blur decides.
+///     g(t) = L(t) (1 - contrast (Phi((t - a) / sigma) - Phi((t - b) / sigma))),
+///     a, b = centre -+ width / 2,   L linear in t.
+/// Valid also for strips thinner than the blur, for which the prior of contrast and blur decides.
 /// Failures as for locate_edge.
 Result<StripFit> locate_strip(std::span<const EdgeSample> samples, const GreyNoise& noise,
                               const StripPrior& prior);

@@ -9,8 +9,8 @@
 // differences dG of neighbouring pixels are the slope of the profile, averaged over a pixel's pitch; with q
 // their distance from a parabola that is fitted to the edge,
 //
-//     variance = cos^2 (sum q^2 dG - 1/12) along the edge's normal, with the cosine of the angle between
-//     normal and row
+//     variance = cos^2 (sum q^2 dG - 1/12) along the edge's normal,
+//     with cos that of the angle between normal and row
 //
 // No shape of the blur is assumed: the variance is that of optics and motion together. Strips begin 3.5
 // standard deviations and a pixel from the edge. Source of the moments: Tabatabai, Mitchell, Edge location to

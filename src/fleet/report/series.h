@@ -7,8 +7,8 @@
 // diagnosis states for each effect that it names (gap_alone): f = sqrt(g^2 - 1). If an effect has several
 // size parameters, they are weighted by their usual values:
 //
-//     floors a unit of size j = median over all names of f / |z|,  divided by usual_j,   z_j = (value_j -
-//     vanishing_j) / usual_j
+//     floors a unit of size j = median over all names of f / |z|,  divided by usual_j,
+//     z_j = (value_j - vanishing_j) / usual_j
 //
 // A diagnosis that names the effect with a probability of one half or more gives a value with its standard
 // error. A diagnosis that tried the effect but does not name it gives a limit: the size is below L =

@@ -6,8 +6,8 @@
 // (attribution.h). Sizes estimated in this way would be biased towards 0, since a unit that is never named is
 // only known to be below its limit. The sizes therefore maximise
 //
-//     product over u of  N(y_u; X_u m, V_u)  or  Phi((L_u - X_u m)/sqrt(V_u)) - Phi((-L_u - X_u
-//     m)/sqrt(V_u)),
+//     product over u of  N(y_u; X_u m, V_u)  or
+//         Phi((L_u - X_u m)/sqrt(V_u)) - Phi((-L_u - X_u m)/sqrt(V_u)),
 //
 // with V_u = s_u^2 + tau^2, times their priors N(m_j; 0, g_j^2), at the tau at which the integral of this
 // product over m is largest (Laplace's method). The logarithm is concave in m and is maximised by Newton's

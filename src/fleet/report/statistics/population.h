@@ -15,8 +15,8 @@
 // y is. For a unit that is not named, y and V are mean and variance of the values that are possible below its
 // limit; otherwise V = 0:
 //
-//     theta_u | y = B y_u + (1 - B) mu,   B = tau^2 / (tau^2 + s_u^2),   var = B s_u^2 + B^2 V + (1 - B)^2
-//     var(mu)
+//     theta_u | y = B y_u + (1 - B) mu,   B = tau^2 / (tau^2 + s_u^2),
+//     var = B s_u^2 + B^2 V + (1 - B)^2 var(mu)
 //
 // Sources: Efron, Morris, JASA 70, 1975; Raudenbush, Bryk, Hierarchical Linear Models, 2002, ch. 3; Tobin,
 // Econometrica 26, 1958.
