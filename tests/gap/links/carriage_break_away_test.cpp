@@ -35,7 +35,7 @@ double worst_window(const Rig& rig, const std::string& experiment) {
 
 /// It stands two counts from the end of travel, where no row is judged, and breaks away slowly. Friction that
 /// falls with the speed multiplies what the speed is off by where the first window begins.
-TEST(CarriageLink, BreakAwayBesideAnEndOfTravel_IsFollowedWithFrictionThatFalls) {
+TEST(CarriageBreakAway, BreakAwayBesideAnEndOfTravel_IsFollowedWithFrictionThatFalls) {
     Rig rig = reference_rig();
     rig.effects = {{"stribeck_friction", {{"level_V", 0.3}, {"speed_mm_per_s", 12.0}}}};
     for (const double V_per_s : {1.0, 2.0, 4.0})
