@@ -90,7 +90,7 @@ Status watch_sweep(Pilot& pilot, std::vector<calib::CameraSight>& sights) {
     if (!*frame) return {};
     const auto fit = pilot.sight.locate_anywhere(**frame);
     if (fit) sights.push_back({(*frame)->time_ns, fit->position.s_mm, fit->position.s_std_mm});
-    return pilot.machine.keep(pilot.sight.found(), pilot.sight.measured());
+    return pilot.keep_sight(**frame);
 }
 
 Result<SweepRecord> sweep(Pilot& pilot) {

@@ -109,6 +109,7 @@ class Machine {
     Status end_recording(const std::optional<EncoderZero>& zero = {});
     /// Ends the recording as unfinished; everything is on the disk then, if the disk takes it.
     void leave_recording(const std::optional<EncoderZero>& zero = {});
+    bool is_recording() const { return recorder_ != nullptr; }
     /// Records an event that happens now.
     void note(std::string what, std::string text);
 

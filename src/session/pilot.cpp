@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -137,11 +138,16 @@ bool Pilot::carriage_is_quiet() const {
     return control::macro_is_quiet(params.macro, state.macro);
 }
 
+Status Pilot::keep_sight(const vision::Frame& frame) {
+    return machine.keep(sight.found(),
+                        machine.is_recording() ? sight.measured(frame) : std::vector<TagDetection>());
+}
+
 Result<vision::PositionFit> Pilot::look_anywhere() {
     const auto frame = next_frame(machine.now_ns());
     if (!frame) return forward(frame.error());
     auto fit = sight.locate_anywhere(*frame);
-    if (auto kept = machine.keep(sight.found(), sight.measured()); !kept) return forward(kept.error());
+    if (auto kept = keep_sight(*frame); !kept) return forward(kept.error());
     return fit;
 }
 
@@ -152,7 +158,7 @@ Result<std::optional<control::TargetOffset>> Pilot::watch(double target_s_mm, in
     if (!frame) return forward(frame.error());
     if (!*frame || exposed_at(**frame) < state.rest_since_ns) return std::nullopt;
     const auto fit = sight.locate(**frame, believed_s_mm(), tag_id);
-    if (auto kept = machine.keep(sight.found(), sight.measured()); !kept) return forward(kept.error());
+    if (auto kept = keep_sight(**frame); !kept) return forward(kept.error());
     if (!fit) {
         trouble = fit.error();
         return std::nullopt;

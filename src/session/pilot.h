@@ -82,6 +82,8 @@ class Pilot {
     /// Brings the carriage to its place `carriage_mm`, by the registration, and to rest within a count of it.
     /// Where late commands or readings make the controller oscillate, to within a few counts.
     Status place_carriage(double carriage_mm);
+    /// Keeps what was located in a frame: for the recording, if there is one, and the live page.
+    Status keep_sight(const vision::Frame& frame);
     /// The camera's position from any tag in the next frame.
     Result<vision::PositionFit> look_anywhere();
     /// A motion under the supervisor to camera position s, measured by a tag, confirmed at rest.

@@ -207,8 +207,7 @@ Result<vision::Frame> Session::capture() {
         std::abs(pilot.state.micro.average_mm - platform_mm) > still_mm)
         return failure(Reason::not_at_rest, "the stage moved while the picture was taken");
     if (const auto fit = pilot.sight.locate(*frame, pilot.believed_s_mm())) pilot.saw(fit->position);
-    if (auto kept = pilot.machine.keep(pilot.sight.found(), pilot.sight.measured()); !kept)
-        return forward(kept.error());
+    if (auto kept = pilot.keep_sight(*frame); !kept) return forward(kept.error());
     return frame;
 }
 

@@ -42,25 +42,25 @@ vision::ExpectedTag Sight::expected(const PlateTag& tag, double s_mm) const {
 
 void Sight::look_for(const vision::Frame& frame, const std::vector<vision::ExpectedTag>& expected) {
     found_.clear();
-    measured_.clear();
+    refined_.reset();
     for (const vision::FoundTag& tag : tracker_.find(frame.image, frame.time_ns, expected))
         found_.push_back(tag.detection);
 }
 
-std::optional<TagDetection> Sight::as_shown(const vision::RefinedTag& tag, const vision::Frame& frame) const {
-    if (!tag.camera_known) return tag.detection;
+std::vector<TagDetection> Sight::measured(const vision::Frame& frame) const {
+    if (!refined_) return {};
+    if (!refined_->camera_known) return {refined_->detection};
     vision::RefinementOptions free;
     free.noise = noise_;
-    free.blur_px = tag.blur_px;
-    const auto shown = vision::refine_tag(frame.image, tag.detection, free);
-    if (!shown) return std::nullopt;
-    return shown->detection;
+    free.blur_px = refined_->blur_px;
+    const auto shown = vision::refine_tag(frame.image, refined_->detection, free);
+    if (!shown) return {};
+    return {shown->detection};
 }
 
-void Sight::keep_refined(const Result<vision::PositionFit>& fit, const vision::Frame& frame) {
+void Sight::keep_refined(const Result<vision::PositionFit>& fit) {
     if (!fit) return;
-    if (fit->tag.explained > 0.0)
-        if (const auto shown = as_shown(fit->tag, frame)) measured_ = {*shown};
+    if (fit->tag.explained > 0.0) refined_ = fit->tag;
     for (TagDetection& tag : found_)
         if (tag.tag_id == fit->tag.detection.tag_id) tag = fit->tag.detection;
 }
@@ -77,7 +77,7 @@ Result<vision::PositionFit> Sight::locate(const vision::Frame& frame, double exp
     look_for(frame, {expected(tag, expected_s_mm)});
     const vision::LocateOptions options{.predicted_s_mm = expected_s_mm, .noise = noise_};
     auto fit = vision::locate_camera(camera_, nominal_, frame, found_, tag.id, options);
-    keep_refined(fit, frame);
+    keep_refined(fit);
     return fit;
 }
 
@@ -124,7 +124,7 @@ Result<vision::PositionFit> Sight::locate_anywhere(const vision::Frame& frame) {
     if (!chosen) return tl::make_unexpected(chosen.error());
     if (*chosen) {
         auto fit = vision::locate_camera(camera_, nominal_, frame, found_, **chosen, {.noise = noise_});
-        keep_refined(fit, frame);
+        keep_refined(fit);
         return fit;
     }
     if (!found_.empty())

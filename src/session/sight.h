@@ -36,22 +36,23 @@ class Sight {
     const std::vector<TagDetection>& found() const { return found_; }
     /// Of these the one used for the position, if its corners could be measured; as the picture shows them,
     /// not as the camera of the rig file would have to: a recording of them can contradict that camera.
-    const std::vector<TagDetection>& measured() const { return measured_; }
+    /// It is measured once more for that, with all eight coordinates of its corners free.
+    /// @param frame  the last one
+    std::vector<TagDetection> measured(const vision::Frame& frame) const;
 
   private:
     vision::ExpectedTag expected(const PlateTag& tag, double s_mm) const;
     void look_for(const vision::Frame& frame, const std::vector<vision::ExpectedTag>& expected);
     /// Id of the tag to be used for the position; empty if no tag in view is of the plate.
     Result<std::optional<int>> tag_that_others_confirm() const;
-    /// A measured tag with all eight coordinates of its corners free.
-    std::optional<TagDetection> as_shown(const vision::RefinedTag& tag, const vision::Frame& frame) const;
-    void keep_refined(const Result<vision::PositionFit>& fit, const vision::Frame& frame);
+    void keep_refined(const Result<vision::PositionFit>& fit);
 
     CameraGeometry camera_;
     vision::GreyNoise noise_;
     Plate nominal_;
     vision::TagTracker tracker_;
-    std::vector<TagDetection> found_, measured_;
+    std::vector<TagDetection> found_;
+    std::optional<vision::RefinedTag> refined_;  ///< in the last frame, if its corners could be measured
 };
 
 }  // namespace fidservo

@@ -127,8 +127,9 @@ TEST(SimulatedRig, TiltedCamera_CornersOnRecordAreThoseOfThePicture) {
         ++seen;
         const auto fit = sight.locate_anywhere(*frame);
         ASSERT_TRUE(fit);
-        ASSERT_EQ(sight.measured().size(), 1u);
-        const TagDetection& tag = sight.measured().front();
+        const std::vector<TagDetection> measured = sight.measured(*frame);
+        ASSERT_EQ(measured.size(), 1u);
+        const TagDetection& tag = measured.front();
         const auto corners_mm = vision::corners_mm(*vision::find_tag(reference_plate(), tag.tag_id));
         const double s_mm = plant::camera_position_mm(set.rig->truth());
         for (std::size_t c = 0; c < 4; ++c)
