@@ -2,7 +2,7 @@
 #include "gap/balance/tag_period.h"
 
 #include "gap/links/tag_sight.h"
-#include "plant/formulas/formula_effect.h"
+#include "tests/gap/hidden_formula.h"
 #include "tests/gap/simulated_campaign.h"
 
 #include <cmath>
@@ -40,14 +40,10 @@ TEST(TagPeriod, OfAWaveInTheTags_IsItsPeriod) {
 
 /// What stands tells most of it: no offset of a window is free.
 TEST(TagPeriod, OfAWaveAlongTheCamerasWay_IsFoundToAHundredth) {
-    FormulaEffect wave;
-    wave.name = "wave_of_camera";
-    wave.acts_on = "camera.x";
-    wave.block = "camera.geometry";
-    wave.formula = "size * sin(2 * pi * camera_place / 12)";
-    wave.parameters.push_back({.name = "size", .unit = "mm", .low = -1.0, .high = 1.0, .typical = 0.1});
     const Evidence evidence =
-        testing::campaign({plant::typical_setting(plant::effect_of(wave))}, {"macro-square", "integrated"});
+        testing::campaign({testing::hidden_formula("camera.x", "camera.geometry",
+                                                   "size * sin(2 * pi * camera_place / 12)", 0.1)},
+                          {"macro-square", "integrated"});
     const Errors errors = evidence.errors({}, everything(evidence));
     EXPECT_NEAR(strongest_tag_period_mm(evidence, errors, WaveOf::camera), 12.0, 0.12);
 }

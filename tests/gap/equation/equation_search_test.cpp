@@ -3,7 +3,7 @@
 #include "gap/equation/equation_search.h"
 
 #include "gap/equation/equation.h"
-#include "plant/formulas/formula_effect.h"
+#include "tests/gap/hidden_formula.h"
 #include "tests/gap/nothing_named.h"
 #include "tests/gap/simulated_campaign.h"
 
@@ -28,15 +28,9 @@ TEST(SlowEquationSearch, RigWithoutAGap_HasNone) {
 /// the other.
 TEST(SlowEquationSearch, ForceThatGrowsWithThePlace_IsFoundWithItsSlope) {
     constexpr double slope_V_per_mm = 5e-4;
-    FormulaEffect force;
-    force.name = "force_of_test";
-    force.acts_on = "macro.force";
-    force.block = "macro.mechanics";
-    force.formula = "slope * place";
-    force.parameters.push_back(
-        {.name = "slope", .unit = "V/mm", .low = -0.1, .high = 0.1, .typical = slope_V_per_mm});
-    const Evidence evidence =
-        testing::campaign({plant::typical_setting(plant::effect_of(force))}, {"macro-pulses", "macro-sweep"});
+    const Evidence evidence = testing::campaign(
+        {testing::hidden_formula("macro.force", "macro.mechanics", "size * place", slope_V_per_mm)},
+        {"macro-pulses", "macro-sweep"});
     const std::optional<ProposedEquation> found =
         equation_of(evidence, testing::nothing_named(evidence),
                     {.block = "macro.mechanics", .depends_on = {}, .text = {}}, 1, tail);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An equation against wrong names, and in addition to right names.
 #include "gap/diagnose.h"
-#include "plant/formulas/formula_effect.h"
+#include "tests/gap/hidden_formula.h"
 #include "tests/gap/simulated_campaign.h"
 
 #include <algorithm>
@@ -14,13 +14,8 @@ namespace fidservo::gap {
 namespace {
 
 plant::EffectSetting drag(double V_s2_per_mm2) {
-    FormulaEffect effect;
-    effect.name = "drag_of_test";
-    effect.acts_on = "macro.friction";
-    effect.block = "macro.friction";
-    effect.formula = "size * speed * abs(speed)";
-    effect.parameters.push_back({.name = "size", .low = -1.0, .high = 1.0, .typical = V_s2_per_mm2});
-    return plant::typical_setting(plant::effect_of(effect));
+    return testing::hidden_formula("macro.friction", "macro.friction", "size * speed * abs(speed)",
+                                   V_s2_per_mm2);
 }
 
 Diagnosis diagnosed(const Evidence& evidence, std::vector<std::string> only) {
@@ -70,14 +65,9 @@ TEST(SlowEquation, LawBesideANameThatIsRight_LeavesTheName) {
 
 /// The tags alone are off, as if the encoder read falsely; its own signal says that it does not.
 TEST(SlowEquation, WaveAlongTheCamerasWay_IsProposedThere) {
-    FormulaEffect wave;
-    wave.name = "wave_of_test";
-    wave.acts_on = "camera.x";
-    wave.block = "camera.geometry";
-    wave.formula = "size * sin(2 * pi * camera_place / 12)";
-    wave.parameters.push_back({.name = "size", .unit = "mm", .low = -1.0, .high = 1.0, .typical = 0.1});
     const Evidence evidence =
-        testing::campaign({plant::typical_setting(plant::effect_of(wave))},
+        testing::campaign({testing::hidden_formula("camera.x", "camera.geometry",
+                                                   "size * sin(2 * pi * camera_place / 12)", 0.1)},
                           {"macro-pulses", "macro-square", "macro-sweep", "micro-steps", "integrated"});
     const Diagnosis diagnosis = diagnosed(evidence, {"encoder_ripple"});
     EXPECT_TRUE(diagnosis.effects.empty());

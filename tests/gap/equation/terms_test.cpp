@@ -2,8 +2,8 @@
 // The library of terms, and what sparse regression makes of a force that is known.
 #include "gap/equation/screening.h"
 #include "gap/evidence/halves.h"
-#include "plant/effects/catalogue.h"
 #include "plant/formulas/formula_effect.h"
+#include "tests/gap/hidden_formula.h"
 #include "tests/gap/simulated_campaign.h"
 
 #include <cmath>
@@ -19,17 +19,6 @@ namespace {
 const CoveredRanges some_ranges{{0.0, 20.0},   {-4.0, 4.0},  {20.0, 180.0}, {-200.0, 200.0},
                                 {0.0, 1000.0}, {22.0, 90.0}, {0.0, 3.8},    {0.0, 150.0},
                                 {0.0, 1.9},    {0.0, 190.0}, {20.0, 180.0}};
-
-FormulaEffect formula(const std::string& acts_on, const std::string& block, const std::string& text,
-                      double size) {
-    FormulaEffect effect;
-    effect.name = "of_test";
-    effect.acts_on = acts_on;
-    effect.block = block;
-    effect.formula = "size * " + text;
-    effect.parameters.push_back({.name = "size", .low = -10.0, .high = 10.0, .typical = size});
-    return effect;
-}
 
 void expect_that_all_can_be_evaluated(const CoveredRanges& ranges) {
     const std::vector<double> periods_mm{5.0, 12.0};
@@ -68,10 +57,9 @@ PortScreening screening(const Evidence& evidence, const Errors& errors, plant::P
 }
 
 TEST(EquationScreening, DragOfACarriage_IsTakenInWithItsCoefficientAndNothingBeside) {
-    const plant::Effect& drag =
-        plant::effect_of(formula("macro.friction", "macro.friction", "speed * abs(speed)", 4e-6));
-    const Evidence evidence =
-        testing::campaign({plant::typical_setting(drag)}, {"macro-pulses", "macro-sweep"});
+    const Evidence evidence = testing::campaign(
+        {testing::hidden_formula("macro.friction", "macro.friction", "size * speed * abs(speed)", 4e-6)},
+        {"macro-pulses", "macro-sweep"});
     const Errors errors = evidence.errors({}, everything(evidence));
     const auto sketch = screening(evidence, errors, plant::Port::friction).sketch(0.01);
     ASSERT_TRUE(sketch.has_value());
@@ -87,10 +75,9 @@ TEST(EquationScreening, RigWithoutAGap_HasNoTermAtAnyPortOfTheCarriage) {
 }
 
 TEST(EquationScreening, LatentHeat_IsTakenInWhereTheWireIsHeated) {
-    const plant::Effect& latent =
-        plant::effect_of(formula("micro.heat_flow", "micro.heater", "contraction_rate", -0.5));
-    const Evidence evidence =
-        testing::campaign({plant::typical_setting(latent)}, {"micro-steps", "micro-triangle"});
+    const Evidence evidence = testing::campaign(
+        {testing::hidden_formula("micro.heat_flow", "micro.heater", "size * contraction_rate", -0.5)},
+        {"micro-steps", "micro-triangle"});
     const Errors errors = evidence.errors({}, everything(evidence));
     const auto sketch = screening(evidence, errors, plant::Port::heat_flow).sketch(0.01);
     ASSERT_TRUE(sketch.has_value());

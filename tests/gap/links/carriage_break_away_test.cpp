@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The carriage is predicted from the state in which a window finds it.
 #include "gap/evidence.h"
+#include "gap/fit/score.h"
 #include "src/simulation/planned_experiments.h"
 #include "src/simulation/simulate.h"
 #include "tests/reference_rig.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -21,15 +23,11 @@ double worst_window(const Rig& rig, const std::string& experiment) {
     const testing::TemporaryFolder folder;
     const PlannedExperiment planned = planned_experiment(folder.write("to-and-fro.yaml", experiment), rig, 1);
     const Evidence evidence(rig, {simulate(rig, {}, planned.experiment, planned.name, 1)});
-    const Errors errors = evidence.errors({}, everything(evidence));
+    const std::vector<double> squares =
+        mean_squares(evidence.windows(), evidence.errors({}, everything(evidence)));
     double worst = 0.0;
-    for (const Window& window : evidence.windows()) {
-        if (window.signal != Signal::encoder) continue;
-        double sum = 0.0;
-        for (std::size_t i = window.begin; i < window.end; ++i)
-            if (!std::isnan(errors[i])) sum += errors[i] * errors[i];
-        worst = std::max(worst, std::sqrt(sum / static_cast<double>(window.end - window.begin)));
-    }
+    for (std::size_t w = 0; w < squares.size(); ++w)
+        if (evidence.windows()[w].signal == Signal::encoder) worst = std::max(worst, std::sqrt(squares[w]));
     return worst;
 }
 
