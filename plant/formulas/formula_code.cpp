@@ -8,7 +8,6 @@
 #include <atomic>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <numbers>
@@ -370,7 +369,8 @@ void FormulaCode::demand_extents(std::span<const double> parameters) const {
         if (value >= 0.0 && (is_delay ? value <= longest_delay_s : std::isfinite(value))) continue;
         std::ostringstream what;
         what << extent_key(memory) << ": is " << value << (is_delay ? " s" : "") << at_values(parameters)
-             << "; allowed: " << (is_delay ? "0 to 10 s" : "numbers not below 0");
+             << "; allowed: " << (is_delay ? "0 to " : "numbers not below 0");
+        if (is_delay) what << longest_delay_s << " s";
         throw FormulaFault(effect_.name, what.str());
     }
 }

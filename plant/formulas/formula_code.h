@@ -65,7 +65,8 @@ class FormulaCode {
                     std::span<const double> parameters) const;
     /// The width of a play, in the unit of its input, or the time of a delay in s.
     double extent(std::size_t memory, std::span<const double> parameters) const;
-    /// Throws FormulaFault if a width is below 0, a delay below 0 or above 10 s, or either no number.
+    /// Throws FormulaFault if a width is below 0, a delay below 0 or above longest_delay_s, or either no
+    /// number.
     void demand_extents(std::span<const double> parameters) const;
 
   private:

@@ -100,8 +100,13 @@ bool vanishes(const FormulaTerm& term) {
 
 void Formulas::add(const FormulaCode& code, std::span<const double> parameters,
                    const std::string& stated_at) {
-    std::vector<FormulaTerm> terms = std::move(terms_);
     FormulaTerm own{&code, {parameters.begin(), parameters.end()}, 0, stated_at};
+    try {
+        if (!vanishes(own)) code.demand_extents(parameters);
+    } catch (const FormulaFault& fault) {
+        refuse(code, stated_at, fault.rest());
+    }
+    std::vector<FormulaTerm> terms = std::move(terms_);
     const auto before = std::ranges::find(terms, &code, &FormulaTerm::code);
     if (before != terms.end())
         *before = std::move(own);
@@ -119,11 +124,6 @@ void Formulas::take_in(FormulaTerm term) {
         refuse(code, term.stated_at,
                "state: with those of the other effects there are more than " + std::to_string(most_memories) +
                    " quantities that remember; allowed: no more");
-    try {
-        code.demand_extents(term.parameters);
-    } catch (const FormulaFault& fault) {
-        refuse(code, term.stated_at, fault.rest());
-    }
     term.first_memory = memories_;
     terms_.push_back(std::move(term));
     memories_ += effect.memories.size();

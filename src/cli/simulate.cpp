@@ -16,7 +16,6 @@
 #include "src/simulation/filmed_recording.h"
 #include "src/simulation/planned_experiments.h"
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -61,17 +60,13 @@ int record_on_simulation(const SimulateOptions& options) {
 
     if (is_campaign) make_output_folder(options.out);
     Progress progress("recordings", plan.size());
-    const auto record = [&](const PlannedExperiment& planned) {
-        const std::filesystem::path folder = is_campaign ? options.out / planned.name : options.out;
+    for (const auto& [name, experiment] : plan) {
+        const std::filesystem::path folder = is_campaign ? options.out / name : options.out;
         if (options.frames)
-            write_filmed_recording(folder, rig, effects, planned.experiment, planned.name, options.seed,
-                                   options.origin);
+            write_filmed_recording(folder, rig, effects, experiment, name, options.seed, options.origin);
         else
-            write_recording(folder, simulate(rig, effects, planned.experiment, planned.name, options.seed),
-                            rig.camera, options.origin);
-    };
-    for (const PlannedExperiment& planned : plan) {
-        record(planned);
+            write_recording(folder, simulate(rig, effects, experiment, name, options.seed), rig.camera,
+                            options.origin);
         progress.advance();
     }
     progress.finish();
